@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "io/diagnostics.h"
 #include "io/error.h"
 #include "report/svg.h"
 
@@ -36,7 +35,7 @@ std::string table(const std::vector<std::pair<std::string, Json>>& columns) {
   for (const auto& [name, values] : columns) {
     std::vector<std::string>& column = cells.emplace_back(1, name);
     for (const Json& value : values) column.push_back(cell(value));
-    widths.push_back(std::max_element(column.begin(), column.end(), [](const auto& a, const auto& b) {
+    widths.push_back(std::ranges::max_element(column, [](const auto& a, const auto& b) {
                        return a.size() < b.size();
                      })->size());
   }
@@ -56,9 +55,8 @@ std::string readable(const Json& answer) {
   std::string lines;
   std::vector<std::pair<std::string, Json>> columns;
   for (const auto& [key, value] : answer.items()) {
-    const bool is_column =
-        columns.empty() ? std::find(kFirstColumns.begin(), kFirstColumns.end(), key) != kFirstColumns.end()
-                        : value.size() == columns.front().second.size();
+    const bool is_column = columns.empty() ? std::ranges::find(kFirstColumns, key) != kFirstColumns.end()
+                                           : value.size() == columns.front().second.size();
     if (is_column && value.is_array())
       columns.emplace_back(key, value);
     else

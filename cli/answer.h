@@ -10,7 +10,6 @@
 
 namespace abbe::cli {
 
-/// A JSON answer whose keys retain their order.
 using Json = nlohmann::ordered_json;
 
 /// The value, or null without one.
@@ -19,7 +18,6 @@ template <typename T>
   return value ? Json(*value) : Json();
 }
 
-/// Prints the result of `text` on stdout.
 void print(const Json& answer, bool as_json);
 
 /// An answer as one line of JSON with all digits, or as plain text with a line per key; both end in a
@@ -34,15 +32,14 @@ void print(const Json& answer, bool as_json);
 /// Replaces every list of one element by that element, also within lists.
 [[nodiscard]] Json without_lists_of_one(Json answer);
 
-/// A text as a cell of a CSV table in quotes; its own quotes are doubled.
 [[nodiscard]] std::string csv_quoted(const std::string& text);
-/// A text as a cell of a CSV table, in quotes only if it contains commas, quotes or line breaks.
+/// A cell of a CSV table, in quotes only if it contains commas, quotes or line breaks.
 [[nodiscard]] std::string csv_cell(const std::string& text);
 
 /// Writes a text to stderr. Errors of the stream are ignored.
 void print_to_stderr(const std::string& text);
 
-/// Writes one line to stderr, preceded by "abbe: ".
+/// Writes one line to stderr after "abbe: ".
 void print_message(const std::string& message);
 
 /// Prints a warning to stderr, if there is one. Throws Error{scene} with it instead if `strict`.

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "io/image.h"
 #include "io/json_values.h"
 #include "io/text.h"
 #include "sensor/film/crop.h"
@@ -60,7 +59,7 @@ std::int64_t parse_integer(const std::string& option, const std::string& text, s
 
 std::size_t parse_choice(const std::string& option, const std::string& text,
                          const std::vector<std::string>& names) {
-  const auto chosen = std::find(names.begin(), names.end(), text);
+  const auto chosen = std::ranges::find(names, text);
   if (chosen == names.end()) refuse(option, "\"" + text + "\"", fmt::format("{}", fmt::join(names, ", ")));
   return static_cast<std::size_t>(chosen - names.begin());
 }

@@ -53,7 +53,6 @@ namespace abbe::cli {
 /// "lights", optionally with names as in "lights:key,fill", or "bounces", optionally with a maximum from 1 to
 /// 64 as in "bounces:4" (default 8).
 [[nodiscard]] LayerChoice parse_layer_choice(const std::string& option, const std::string& text);
-/// Names of first-hit features (`kFeatureNames`) separated by commas.
 [[nodiscard]] std::vector<Feature> parse_feature_list(const std::string& option, const std::string& text);
 /// "a:b", integers with 0 <= a < b: the samples a to b - 1.
 [[nodiscard]] SampleRange parse_sample_range(const std::string& option, const std::string& text);
@@ -63,7 +62,6 @@ namespace abbe::cli {
 /// "port" or "host:port" of a listening program, with port > 0 and IPv6 addresses in brackets. The default
 /// host is this machine.
 [[nodiscard]] ServerAddress parse_viewer_address(const std::string& option, const std::string& text);
-/// "/pointer=value": a JSON pointer into the scene file and the text after the first "=".
 [[nodiscard]] Override parse_override(const std::string& option, const std::string& text);
 
 }  // namespace abbe::cli

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -32,7 +31,7 @@ constexpr std::array kCameraSuffixes{".spi1d", ".cube", ".clf", "_to_aces.clf"};
 
 // True if the calibration with this report can have written a file of this name.
 bool is_calibration_file(const std::string& report, const std::string& name) {
-  if (std::find(kReportFiles.begin(), kReportFiles.end(), name) != kReportFiles.end()) return true;
+  if (std::ranges::find(kReportFiles, name) != kReportFiles.end()) return true;
   const std::string begin = camera_file({}, "");
   return std::ranges::any_of(kCameraSuffixes, [&](std::string_view end) {
     if (!name.starts_with(begin) || !name.ends_with(end) || name.size() < begin.size() + end.size())
@@ -40,19 +39,6 @@ bool is_calibration_file(const std::string& report, const std::string& name) {
     const std::string illuminant = name.substr(begin.size(), name.size() - begin.size() - end.size());
     return report.find('"' + illuminant + '"') != std::string::npos;
   });
-}
-
-// All files that `abbe calibrate` may write to `folder` for these illuminants, which are separated by
-// commas. It writes only some of them, and they need not exist.
-std::vector<fs::path> calibration_files(const fs::path& folder, const std::string& illuminants) {
-  std::vector<fs::path> files;
-  for (const char* name : kReportFiles) files.push_back(folder / name);
-  for (const std::string& illuminant : split(illuminants, ',')) {
-    CameraProfile profile;
-    profile.light = illuminant;
-    for (const char* end : kCameraSuffixes) files.push_back(folder / camera_file(profile, end));
-  }
-  return files;
 }
 
 // Files in the folder that an earlier `abbe calibrate` wrote, as `folder` / name. They have the name of one
@@ -76,16 +62,24 @@ std::vector<fs::path> earlier_files(const fs::path& folder) {
 void remove_unless_written(std::span<const fs::path> earlier, std::span<const fs::path> written) {
   for (const fs::path& file : earlier) {
     std::error_code failure;
-    if (std::find(written.begin(), written.end(), file) == written.end()) fs::remove(file, failure);
+    if (std::ranges::find(written, file) == written.end()) fs::remove(file, failure);
     if (failure)
       throw Error(ErrorCode::output, file.string(),
                   "cannot remove a file of an earlier calibration: " + failure.message());
   }
 }
 
+// All files that `abbe calibrate` may write. It writes only some of them, and they need not exist.
 std::vector<fs::path> output_files(const CalibrateOptions& options) {
-  return options.output.empty() ? std::vector<fs::path>{}
-                                : calibration_files(options.output, options.illuminants);
+  std::vector<fs::path> files;
+  if (options.output.empty()) return files;
+  for (const char* name : kReportFiles) files.push_back(options.output / name);
+  for (const std::string& illuminant : split(options.illuminants, ',')) {
+    CameraProfile profile;
+    profile.light = illuminant;
+    for (const char* end : kCameraSuffixes) files.push_back(options.output / camera_file(profile, end));
+  }
+  return files;
 }
 
 // Rejects illuminants that are named twice. Written files compare the names without case, as OpenColorIO does
@@ -106,7 +100,7 @@ void require_named_once(const std::string& illuminants, bool are_written) {
 }
 
 // Recovers the response of a series without measured values, and writes its curves.
-int calibrate_response(const CalibrateOptions& options) {
+void calibrate_response(const CalibrateOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   Diagnostics diagnostics;
   const std::vector<ChannelResponse> responses =
@@ -123,25 +117,17 @@ int calibrate_response(const CalibrateOptions& options) {
     write_atomically(written[1], text(report, true));
     remove_unless_written(earlier, written);
   }
-  if (options.json)
-    print(report, true);
-  else
-    fmt::print("{}", table_of(responses));
-  return 0;
+  fmt::print("{}", options.json ? text(report, true) : table_of(responses));
 }
 
 // Prints the quality of every shipped camera.
-int calibrate_all(const CalibrateOptions& options) {
+void calibrate_all(const CalibrateOptions& options) {
   Diagnostics diagnostics;
   const auto light = load_illuminant(options.illuminants, {}, diagnostics);
   const auto chart = load_chart(options.chart, {}, diagnostics);
   check(diagnostics);
   const std::vector<CameraQuality> all = all_camera_qualities(*chart, light->curve);
-  if (options.json)
-    print(json_of(all), true);
-  else
-    fmt::print("{}", table_of(all));
-  return 0;
+  fmt::print("{}", options.json ? text(json_of(all), true) : table_of(all));
 }
 
 MeasurementAnswers read_measurements(const CalibrateOptions& options) {
@@ -164,7 +150,7 @@ void write_calibrations(const CalibrateOptions& options, const std::vector<Calib
     written.files.push_back(options.output / name);
     write_atomically(written.files.back(), content);
   };
-  if (std::any_of(profiles.begin(), profiles.end(), [](const CameraProfile& profile) {
+  if (std::ranges::any_of(profiles, [](const CameraProfile& profile) {
         return profile.correction.model != CorrectionModel::linear;
       }))
     report["bake_dE00_max"] = written.bake_error;
@@ -187,7 +173,7 @@ void write_calibrations(const CalibrateOptions& options, const std::vector<Calib
 
 }  // namespace
 
-int calibrate(const CalibrateOptions& options) {
+void calibrate(const CalibrateOptions& options) {
   const bool is_real = !options.measured.empty() || !options.series.empty();
   // The raw values of the training reflectances are computed with the spectral responses of the photographed
   // camera.
@@ -234,7 +220,6 @@ int calibrate(const CalibrateOptions& options) {
     print(one_or_all(report["calibrations"]), true);
   else
     for (const CalibrationCase& one : cases) fmt::print("{}", table_of(one));
-  return 0;
 }
 
 }  // namespace abbe::cli

@@ -9,24 +9,23 @@
 
 namespace abbe::cli {
 
-/// Options of `abbe calibrate`.
+/// Options of `abbe calibrate`, which its help explains.
 struct CalibrateOptions : CalibrationSource {
-  bool all_cameras = false;  ///< Print the quality of a calibration for every shipped camera instead.
-  /// Name of an illuminant; for a simulated camera also several names separated by commas.
-  std::string illuminants = "D65";
-  std::filesystem::path transfer{};  ///< Answer of `abbe transfer --json` for the page; empty for none.
-  std::filesystem::path mtf{};       ///< Answer of `abbe mtf --json` for the page; empty for none.
-  std::filesystem::path output;  ///< Folder for the OpenColorIO configuration and the report; empty for none.
-  std::size_t max_memory_bytes = default_memory_limit();  ///< Maximum memory of photographs.
-  bool json = false;                                      ///< Print the answer as JSON instead of plain text.
+  bool all_cameras = false;
+  std::string illuminants = "D65";  ///< Several, separated by commas, for a simulated camera only.
+  std::filesystem::path transfer{};
+  std::filesystem::path mtf{};
+  std::filesystem::path output;
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
 };
 
 /// Calibrates a camera on a colour chart, prints CIEDE2000 per patch and writes the configuration. Several
 /// illuminants also give the matrices of DNG. A series without measured values only recovers the response of
-/// a real camera. Returns 0.
+/// a real camera.
 /// Throws Error{usage} unless exactly one kind of camera is given: `camera`, `all_cameras`, or `measured` and
 /// `series`. Throws it also for options without effect, for an illuminant named twice, and for an output that
 /// is an input. Throws otherwise as `simulated_calibration`, `measured_calibration` and `write_ocio_config`.
-int calibrate(const CalibrateOptions& options);
+void calibrate(const CalibrateOptions& options);
 
 }  // namespace abbe::cli

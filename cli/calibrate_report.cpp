@@ -1,14 +1,11 @@
 #include "cli/calibrate_report.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "calibration/fit/resampling.h"
-#include "calibration/metrics/camera_quality.h"
 #include "calibration/output/camera_profile.h"
-#include "cli/answer.h"
 #include "cli/sensor_measurements.h"
 #include "report/display_color.h"
 #include "report/plot.h"

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -28,18 +30,33 @@ struct Subcommand {
   std::shared_ptr<Options> options = std::make_shared<Options>();
 
   /// Adds the subcommand `name` to `parent`. If the command line selects it, parsing sets `command` to `run`
-  /// with the parsed options. `command` must outlive the parsing.
+  /// with the parsed options, which returns the exit code or nothing for 0. `command` must outlive the
+  /// parsing.
+  template <typename Result>
   Subcommand(CLI::App& parent, const std::string& name, const std::string& help, Command& command,
-             int (*run)(const Options&))
+             Result (*run)(const Options&))
       : app(parent.add_subcommand(name, help)) {
-    app->callback([&command, run, owned = options] { command = [run, owned] { return run(*owned); }; });
+    app->callback([&command, run, owned = options] {
+      command = [run, owned] {
+        if constexpr (std::is_same_v<Result, int>) return run(*owned);
+        run(*owned);
+        return 0;
+      };
+    });
   }
   Options* operator->() const { return options.get(); }
 };
 
+/// Adds an option or argument. `type` is the placeholder of its value in the help. Returns the option, which
+/// `app` owns.
+template <typename T>
+CLI::Option* add_value(CLI::App& app, const std::string& flag, T& value, const std::string& help,
+                       const std::string& type) {
+  return app.add_option(flag, value, help)->type_name(type);
+}
+
 /// Adds an option or argument whose text `parse` converts to a value, as `parse(flag, text)`. `value` must
-/// outlive the parsing. `type` is the placeholder of the text in the help. Returns the option, which `app`
-/// owns.
+/// outlive the parsing.
 template <typename T, typename Parse>
 CLI::Option* add_parsed(CLI::App& app, const std::string& flag, T& value, Parse parse,
                         const std::string& help, const std::string& type) {
@@ -96,6 +113,11 @@ inline Imath::V3d parse_vector(const std::string& option, const std::string& tex
   return {v[0], v[1], v[2]};
 }
 
+/// Adds the argument for the scene file.
+inline void add_scene(CLI::App& app, std::filesystem::path& scene) {
+  add_value(app, "scene", scene, "Scene file, or - for standard input", "SCENE")->required();
+}
+
 /// Adds the flag `--json`.
 inline void add_json(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "Print the answer as one JSON object");
@@ -125,25 +147,29 @@ void add_overrides(CLI::App& app, const std::shared_ptr<Options>& options,
       ->type_name("/POINTER=VALUE");
 }
 
-// The commands that are defined outside `commands.cpp`, by file.
+/// Adds --spp with the help `spp_help`, and --error and --time, which end the render instead. `error_name`
+/// names the error, `time_scope` the object of the time.
+void add_samples(CLI::App& app, SamplingOptions& settings, const std::string& spp_help,
+                 const std::string& error_name, const std::string& time_scope);
+/// Adds the options for the integrator, the seed and the threads.
+void add_integrator(CLI::App& app, SamplingOptions& settings);
 
-// render_commands.cpp
+// The commands that are defined outside `commands.cpp`, in the order of the help.
 void add_render(CLI::App& app, Command& command);
 void add_meter(CLI::App& app, Command& command);
-
-// ray_commands.cpp
+void add_merge(CLI::App& app, Command& command);
+void add_convert(CLI::App& app, Command& command);
+void add_info(CLI::App& app, Command& command);
 void add_trace(CLI::App& app, Command& command);
 void add_draw(CLI::App& app, Command& command);
 void add_lens(CLI::App& app, Command& command);
-
-// film_commands.cpp
-void add_develop(CLI::App& app, Command& command);
-void add_measure(CLI::App& app, Command& command);
-
-// material_commands.cpp
 void add_query(CLI::App& app, Command& command);
 void add_lab(CLI::App& app, Command& command);
+void add_develop(CLI::App& app, Command& command);
+void add_measure(CLI::App& app, Command& command);
 void add_transfer(CLI::App& app, Command& command);
 void add_mtf(CLI::App& app, Command& command);
+void add_validate(CLI::App& app, Command& command);
+void add_bench(CLI::App& app, Command& command);
 
 }  // namespace abbe::cli

@@ -1,12 +1,9 @@
 #include "cli/commands.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <set>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -15,9 +12,6 @@
 #include "cli/command_options.h"
 #include "cli/compare.h"
 #include "cli/help.h"
-#include "cli/merge.h"
-#include "cli/scene_file.h"
-#include "cli/validation.h"
 #include "description/scene.h"
 #include "io/diagnostics.h"
 #include "io/error.h"
@@ -42,7 +36,7 @@ void check_option(const CLI::App& app, const std::string& argument) {
       if (names.back() == name && equals + 1 == argument.size() && option->get_items_expected_max() > 0)
         throw Error(ErrorCode::usage, name, no_value(*option));
     }
-  if (std::find(names.begin(), names.end(), name) == names.end())
+  if (std::ranges::find(names, name) == names.end())
     throw Error(ErrorCode::usage, "", unknown_name("option", name, names));
 }
 
@@ -50,7 +44,7 @@ std::string names_of(const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
   for (const CLI::Option* option : options)
     names.push_back(option->nonpositional() ? option->get_name() : option->get_type_name());
-  std::sort(names.begin(), names.end());  // the set is in the order of addresses
+  std::ranges::sort(names);  // the set is in the order of addresses
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -101,65 +95,6 @@ CommandUsage usage_of(const CLI::App& app, const std::string& name) {
   return usage;
 }
 
-void add_info(CLI::App& app, Command& command) {
-  const Subcommand<InfoOptions> sub(
-      app, "info",
-      "Report what a scene contains, which features its render needs, and which integrator it uses", command,
-      info);
-  sub.app->add_option("scene", sub->scene, "Scene file, or - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  add_overrides(*sub.app, sub.options);
-  add_max_memory(*sub.app, sub.options);
-  add_json(*sub.app, sub->json);
-}
-
-void add_merge(CLI::App& app, Command& command) {
-  const Subcommand<MergeOptions> sub(app, "merge", "Merge parts of one render into its film", command, merge);
-  sub.app->add_option("parts", sub->parts, "Partial films of one render, in any order")
-      ->required()
-      ->type_name("PART.abbepart...");
-  sub.app
-      ->add_option("-o,--output", sub->outputs,
-                   "Film (.exr) or partial film with exact sums (.abbepart) to write; may be repeated")
-      ->required()
-      ->allow_extra_args(false)
-      ->type_name("FILE.exr|FILE.abbepart");
-  sub.app->add_option("--display", sub->display, "Also write a picture for a display, like that of render")
-      ->type_name("FILE.png");
-  add_parsed(
-      *sub.app, "--crop", sub->crop,
-      [](const auto& option, const auto& text) { return parse_crop(option, text); },
-      "Pixels that the film must contain, X0 <= x < X1 and Y0 <= y < Y1 (default: all)", "X0,Y0,X1,Y1");
-  sub.app->add_flag("--partial", sub->partial,
-                    "Write the film even if it has fewer samples than --spp or the scene states");
-  add_max_memory(*sub.app, sub.options);
-}
-
-void add_convert(CLI::App& app, Command& command) {
-  const Subcommand<ConvertOptions> sub(
-      app, "convert",
-      "Write a scene file in canonical form, without comments and default values, or convert a scene of pbrt "
-      "(.pbrt), Mitsuba (.xml) or glTF (.gltf, .glb) to a scene file",
-      command, convert);
-  sub.app
-      ->add_option("scene", sub->scene, "Scene file of Abbe or of another renderer, or - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  sub.app
-      ->add_option("-o,--output", sub->output,
-                   "File to write, in the folder of the scene if the scene names files (default: - for "
-                   "standard output)")
-      ->type_name("FILE.json");
-  sub.app
-      ->add_option("--materials", sub->materials,
-                   "Materials that replace those of another renderer's scene, by name: {NAME: MATERIAL, ...} "
-                   "as in scene files")
-      ->type_name("FILE.json");
-  add_overrides(*sub.app, sub.options);
-  add_max_memory(*sub.app, sub.options);
-}
-
 // Adds the options of `calibrate` for the fit of the colour correction.
 void add_characterisation(CLI::App& options, CharacterisationOptions& characterisation) {
   std::vector<std::string> models(kCorrectionNames.begin(), kCorrectionNames.end());
@@ -192,23 +127,19 @@ void add_compare(CLI::App& app, Command& command) {
   const Subcommand<CompareOptions> sub(
       app, "compare", "Compare an image with a reference or with the colour chart in its scene", command,
       compare);
-  sub.app->add_option("image", sub->image, "Image to evaluate")->required()->type_name("FILE.exr");
-  sub.app
-      ->add_option("reference", sub->reference,
-                   "Reference image; optional with --chart (default: the chart's own spectra)")
-      ->type_name("FILE.exr");
-  sub.app
-      ->add_option("--chart", sub->chart, "Scene with a colour chart, which is also compared patch by patch")
-      ->type_name("SCENE");
+  add_value(*sub.app, "image", sub->image, "Image to evaluate", "FILE.exr")->required();
+  add_value(*sub.app, "reference", sub->reference,
+            "Reference image; optional with --chart (default: the chart's own spectra)", "FILE.exr");
+  add_value(*sub.app, "--chart", sub->chart,
+            "Scene with a colour chart, which is also compared patch by patch", "SCENE");
   add_parsed(*sub.app, "--delta-e", sub->formula, one_of<DeltaE>({"2000", "94", "76", "cam16", "itp"}),
              "Colour difference formula: CIEDE2000, CIE94, CIE 1976, CAM16-UCS or ITP (default 2000)",
              "2000|94|76|cam16|itp");
-  sub.app
-      ->add_option("--white", sub->white,
-                   "White of both images, as output/white of a scene (default: the white that they record)")
-      ->type_name("NAME|[X,Y]");
-  sub.app->add_option("--maps", sub->maps, "Folder for maps of the differences and their histograms (.png)")
-      ->type_name("FOLDER");
+  add_value(*sub.app, "--white", sub->white,
+            "White of both images, as output/white of a scene (default: the white that they record)",
+            "NAME|[X,Y]");
+  add_value(*sub.app, "--maps", sub->maps, "Folder for maps of the differences and their histograms (.png)",
+            "FOLDER");
   add_max_memory(*sub.app, sub.options);
   add_json(*sub.app, sub->json);
 }
@@ -218,15 +149,14 @@ void exclude_ineffective_options(CLI::App& calibrate) {
   const auto option = [&calibrate](const std::string& name) { return calibrate.get_option(name); };
   CLI::Option* const measured = option("--measured");
   CLI::Option* const series = option("--series");
-  CLI::Option* const all_cameras = option("--all-cameras");
   // Only a simulated camera can use another chart or a chosen response.
   for (const char* simulated : {"--test", "--response", "--bits"})
-    option(simulated)->excludes(measured)->excludes(series)->excludes(all_cameras);
+    option(simulated)->excludes(measured)->excludes(series)->excludes("--all-cameras");
   std::vector<CLI::Option*> color_options;
   for (const char* name :
        {"--training", "--correction", "--objective", "--adaptation", "--folds", "--transfer", "--mtf"})
-    color_options.push_back(option(name)->excludes(all_cameras));
-  option("--output")->excludes(all_cameras);
+    color_options.push_back(option(name)->excludes("--all-cameras"));
+  option("--output")->excludes("--all-cameras");
   for (const char* name : {"--illuminant", "--chart"}) color_options.push_back(option(name));
   // A series without values of a chart gives responses only, no colours.
   calibrate.parse_complete_callback([series, measured, color_options] {
@@ -240,136 +170,48 @@ void add_calibrate(CLI::App& app, Command& command) {
   const Subcommand<CalibrateOptions> calibration(app, "calibrate", "Calibrate a camera with a colour chart",
                                                  command, calibrate);
   CLI::App& options = *calibration.app;
-  CLI::Option* const camera =
-      options
-          .add_option("--camera", calibration->camera,
-                      "Camera to simulate: a name, FILE.csv, FILE.json, box:LOW-HIGH,LOW-HIGH,LOW-HIGH in "
-                      "nm, observer:1931 or observer:1964")
-          ->type_name("CAMERA");
-  add_response(options, "--camera-response", calibration->camera_response)->needs(camera);
-  options
-      .add_option("--measured", calibration->measured,
-                  "Values that a real camera gave for the chart: linear ones, or code values that --series "
-                  "linearises")
-      ->type_name("FILE.csv");
-  options
-      .add_option("--series", calibration->series,
-                  "List of photographs and their exposure times, from which the response is recovered")
-      ->type_name("FILE.json");
+  add_value(options, "--camera", calibration->camera,
+            "Camera to simulate: a name, FILE.csv, FILE.json, box:LOW-HIGH,LOW-HIGH,LOW-HIGH in "
+            "nm, observer:1931 or observer:1964",
+            "CAMERA");
+  add_response(options, "--camera-response", calibration->camera_response)->needs("--camera");
+  add_value(options, "--measured", calibration->measured,
+            "Values that a real camera gave for the chart: linear ones, or code values that --series "
+            "linearises",
+            "FILE.csv");
+  add_value(options, "--series", calibration->series,
+            "List of photographs and their exposure times, from which the response is recovered",
+            "FILE.json");
   options.add_flag("--all-cameras", calibration->all_cameras,
                    "Report how well each shipped camera can be calibrated");
-  options
-      .add_option("--illuminant", calibration->illuminants,
-                  "Illuminant of the chart; several only with --camera")
-      ->capture_default_str()
-      ->type_name("ILLUMINANT[,...]");
-  options
-      .add_option("--chart", calibration->chart,
-                  "Table of the reflectances of the patches, or of their measured colours")
-      ->capture_default_str()
-      ->type_name("TABLE");
-  options.add_option("--test", calibration->test, "Table of another chart on which the correction is tested")
-      ->type_name("TABLE");
-  options
-      .add_option("--training", calibration->training,
-                  "Reflectances to which the correction is fitted instead of the chart, with raw values from "
-                  "the camera's spectral responses")
-      ->type_name("TABLE[,TABLE...]");
-  options
-      .add_option("--response", calibration->planted_response,
-                  "Response of the simulated camera, which the calibration recovers: linear, gamma:G or "
-                  "s-curve (default: linear and known)")
-      ->type_name("CURVE");
+  add_value(options, "--illuminant", calibration->illuminants,
+            "Illuminant of the chart; several only with --camera", "ILLUMINANT[,...]")
+      ->capture_default_str();
+  add_value(options, "--chart", calibration->chart,
+            "Table of the reflectances of the patches, or of their measured colours", "TABLE")
+      ->capture_default_str();
+  add_value(options, "--test", calibration->test, "Table of another chart on which the correction is tested",
+            "TABLE");
+  add_value(options, "--training", calibration->training,
+            "Reflectances to which the correction is fitted instead of the chart, with raw values from "
+            "the camera's spectral responses",
+            "TABLE[,TABLE...]");
+  add_value(options, "--response", calibration->planted_response,
+            "Response of the simulated camera, which the calibration recovers: linear, gamma:G or "
+            "s-curve (default: linear and known)",
+            "CURVE");
   add_parsed(options, "--bits", calibration->bits, integer_in<int>(0, 16),
              "Bits of the code values, 0 to 16; 0 for no rounding (default 12)", "N");
   add_characterisation(options, calibration->how);
-  options
-      .add_option("-o,--output", calibration->output,
-                  "Folder for the OpenColorIO configuration, CLF, ACES input transform and report")
-      ->type_name("FOLDER");
-  options
-      .add_option("--transfer", calibration->transfer,
-                  "Answer of transfer --json, shown on the page of the report")
-      ->type_name("FILE.json");
-  options.add_option("--mtf", calibration->mtf, "Answer of mtf --json, shown on the page of the report")
-      ->type_name("FILE.json");
+  add_value(options, "-o,--output", calibration->output,
+            "Folder for the OpenColorIO configuration, CLF, ACES input transform and report", "FOLDER");
+  add_value(options, "--transfer", calibration->transfer,
+            "Answer of transfer --json, shown on the page of the report", "FILE.json");
+  add_value(options, "--mtf", calibration->mtf, "Answer of mtf --json, shown on the page of the report",
+            "FILE.json");
   exclude_ineffective_options(options);
   add_max_memory(options, calibration.options);
   add_json(options, calibration->json);
-}
-
-// Excludes options that have no effect on --list, --scale and --soak, the other modes of `bench`.
-void exclude_from_other_modes(CLI::App& bench) {
-  const auto option = [&bench](const std::string& name) { return bench.get_option(name); };
-  CLI::Option* const list = option("--list");
-  CLI::Option* const scale = option("--scale");
-  CLI::Option* const soak = option("--soak");
-  for (const char* name : {"suite", "--integrator", "--spp", "--seeds", "--reference-spp", "--baseline"})
-    option(name)->excludes(list)->excludes(scale)->excludes(soak);
-  for (const char* name : {"--threads", "--quick"}) option(name)->excludes(list)->excludes(soak);
-  option("--output")->excludes(list)->excludes(scale);
-  option("--cache")->excludes(list);
-  scale->excludes(list)->excludes(soak);
-  soak->excludes(list);
-  option("--strict")->needs(option("--baseline"));
-  option("--seed")->needs(soak);
-}
-
-void add_bench(CLI::App& app, Command& command) {
-  const Subcommand<BenchOptions> sub(
-      app, "bench", "Measure run time and error of the integrators on benchmark scenes", command, bench);
-  CLI::App& options = *sub.app;
-  options.add_option("suite", sub->suites, "Suites to measure, as --list prints them (default: all)")
-      ->type_name("SUITE");
-  options.add_option("-o,--output", sub->output, "Folder for the tables and plots of the report")
-      ->type_name("FOLDER");
-  add_parsed(options, "--integrator", sub->integrators, parse_integrators,
-             "Integrators to measure; several render each suite alternately and are compared (default auto)",
-             "NAME[,NAME...]");
-  add_parsed(options, "--spp", sub->samples, parse_sample_counts, "Samples per pixel (default 4,8,16,32,64)",
-             "N[,N...]");
-  add_parsed(
-      options, "--seeds", sub->seeds, integer_in<int>(1, 1000),
-      "Renders with different seeds per suite, integrator and number of samples, 1 to 1000 (default 3)", "N");
-  add_parsed(options, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),
-             "Number of threads; 0 for one per processor (default 0)", "N");
-  add_parsed(options, "--reference-spp", sub->reference_samples, integer_in<int>(2, kMaxSamples),
-             "Samples per pixel of the reference renders (default: 64 times the largest of --spp)", "N");
-  options.add_option("--baseline", sub->baseline, "File bench.json of an earlier run to compare with")
-      ->type_name("FILE.json");
-  options
-      .add_option("--cache", sub->cache,
-                  "Folder for references and generated meshes (default: $XDG_CACHE_HOME/abbe/bench, "
-                  "otherwise ~/.cache/abbe/bench)")
-      ->type_name("FOLDER");
-  options.add_flag("--quick", sub->quick, "Use small films, without the comparison with other renderers");
-  options.add_flag("--strict", sub->strict,
-                   "Exit with 1 if run time or error became worse than in the baseline");
-  options.add_flag("--scale", sub->scale,
-                   "Measure the run time and memory of scenes of growing size instead");
-  add_parsed(options, "--soak", sub->soak_paths, integer_in<std::uint64_t>(1, kMaxSeed),
-             "Search random scenes for faults instead, until this number of paths has been traced", "N");
-  add_parsed(options, "--seed", sub->soak_seed, integer_in<std::uint64_t>(0, kMaxSeed),
-             "Seed of the first scene of --soak; each further scene uses the next number (default 0)", "N");
-  options.add_flag("--list", sub->list, "List the suites");
-  exclude_from_other_modes(options);
-  add_json(options, sub->json);
-}
-
-void add_validate(CLI::App& app, Command& command) {
-  const Subcommand<ValidateOptions> sub(
-      app, "validate", "Recompute all cases with known answers and report their errors", command, validate);
-  CLI::App& options = *sub.app;
-  options.add_flag("--quick", sub->quick,
-                   "Use wider tolerances for films, which takes less than two minutes");
-  add_parsed(options, "--suite", sub->suites, parse_suites,
-             fmt::format("Suites to run: {} (default: all)", fmt::join(kSuiteNames, ", ")),
-             "SUITE[,SUITE...]");
-  options.add_option("-o,--output", sub->output, "Folder for report.html and report.json")
-      ->type_name("FOLDER");
-  add_parsed(options, "--threads", sub->threads, integer_in<int>(0, kMaxThreads),
-             "Number of threads; 0 for one per processor (default 0)", "N");
-  add_json(options, sub->json);
 }
 
 std::string help_text(const CLI::App& app, const std::string& topic, const std::string& key) {
@@ -390,18 +232,16 @@ void add_help(CLI::App& app, Command& command) {
   CLI::App* help =
       app.add_subcommand("help", "Show the help of Abbe, of one command, or of a key of scene files");
   auto options = std::make_shared<Options>();
-  CLI::Option* name =
-      help->add_option(
-              "command", options->command,
-              "Command, or scene for the keys of scene files, or slurm for the jobs of a render in parts")
-          ->type_name("COMMAND|scene|slurm");
-  help->add_option("key", options->key,
-                   "With scene: a key at any level, or a path of keys such as sensor/readout; with slurm: "
-                   "the one file to print")
-      ->type_name("KEY");
+  add_value(*help, "command", options->command,
+            "Command, or scene for the keys of scene files, or slurm for the jobs of a render in parts",
+            "COMMAND|scene|slurm");
+  add_value(*help, "key", options->key,
+            "With scene: a key at any level, or a path of keys such as sensor/readout; with slurm: "
+            "the one file to print",
+            "KEY");
   add_parsed(*help, "--format", options->format, one_of<ReferenceFormat>({"markdown", "man", "bash"}),
              "Print the reference of all commands in this format", "markdown|man|bash")
-      ->excludes(name);
+      ->excludes("command");
   help->callback([&app, &command, options] {
     command = [&app, options] {
       fmt::print("{}", options->format ? reference(usage_of(app, "abbe"), *options->format)

@@ -1,6 +1,7 @@
 #include "cli/compare.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <system_error>
 
@@ -13,7 +14,6 @@
 #include "io/exr.h"
 #include "io/picture.h"
 #include "report/chart_difference.h"
-#include "report/image_difference.h"
 #include "report/maps.h"
 #include "results/white.h"
 #include "sensor/film/recorded_attributes.h"
@@ -21,20 +21,10 @@
 namespace abbe::cli {
 namespace {
 
+// Keys of the formulas, in the order of `DeltaE`.
+constexpr std::array kDeltaEKeys{"dE00", "dE94", "dE76", "dE_CAM16_UCS", "dE_ITP"};
 const char* key_of(DeltaE formula) {
-  switch (formula) {
-    case DeltaE::cie94:
-      return "dE94";
-    case DeltaE::cie76:
-      return "dE76";
-    case DeltaE::cam16_ucs:
-      return "dE_CAM16_UCS";
-    case DeltaE::itp:
-      return "dE_ITP";
-    case DeltaE::cie2000:
-      break;
-  }
-  return "dE00";
+  return kDeltaEKeys.at(static_cast<std::size_t>(formula));
 }
 
 void add_color(Json& answer, const std::string& key, const std::optional<ColorDifference>& color) {
@@ -115,11 +105,6 @@ Json write_maps(const std::filesystem::path& folder, const std::vector<Differenc
   return written;
 }
 
-Scene load_chart_scene(const std::filesystem::path& path, Inputs& inputs) {
-  Diagnostics diagnostics;
-  return accepted(load_scene(path, {}, diagnostics, &inputs), diagnostics);
-}
-
 // Adds the figures of two images and writes their maps if requested.
 void compare_pixels(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
   std::optional<Chromaticity> white;
@@ -165,7 +150,7 @@ void compare_films(const CompareOptions& options, const Image& image, const Imag
 
 }  // namespace
 
-int compare(const CompareOptions& options) {
+void compare(const CompareOptions& options) {
   if (options.reference.empty() && options.chart.empty())
     throw Error(ErrorCode::usage, options.image.string(), "needs a reference or --chart to compare with");
   if (options.reference.empty() && !options.maps.empty())
@@ -181,7 +166,10 @@ int compare(const CompareOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   for (const std::filesystem::path& file : {options.image, options.reference}) inputs.add_file(file);
   std::optional<Scene> scene;
-  if (!options.chart.empty()) scene = load_chart_scene(options.chart, inputs);
+  if (!options.chart.empty()) {
+    Diagnostics diagnostics;
+    scene = accepted(load_scene(options.chart, {}, diagnostics, &inputs), diagnostics);
+  }
   require_distinct(map_files(options.maps), inputs.files());
   const Image image = read_exr(options.image, &inputs);
   std::optional<Image> reference;
@@ -199,7 +187,6 @@ int compare(const CompareOptions& options) {
       print_patches(patches, key);
   }
   print(answer, options.json);
-  return 0;
 }
 
 }  // namespace abbe::cli

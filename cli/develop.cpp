@@ -1,5 +1,3 @@
-#include "cli/develop.h"
-
 #include <algorithm>
 #include <array>
 #include <deque>
@@ -11,16 +9,20 @@
 
 #include "calibration/output/camera_profile.h"
 #include "cli/answer.h"
+#include "cli/command_options.h"
 #include "cli/output_files.h"
 #include "develop/develop.h"
 #include "develop/film_file.h"
+#include "develop/film_sensor.h"
 #include "develop/polarisation.h"
 #include "develop/radiance.h"
 #include "develop/raw_picture.h"
+#include "develop/relight.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/exr.h"
 #include "io/picture.h"
+#include "io/text.h"
 #include "report/maps.h"
 #include "results/spectral.h"
 #include "results/white.h"
@@ -31,6 +33,29 @@ namespace abbe::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct DevelopOptions {
+  fs::path film;
+  std::vector<fs::path> outputs;
+  fs::path display;
+  fs::path polarisation;
+  fs::path scene;
+  std::vector<Override> overrides;
+  std::optional<std::string> white;
+  std::vector<LightFactor> lights;
+  std::optional<double> exposure_s;
+  std::optional<double> iso;
+  std::optional<CalibrationFrame> frame;
+  std::uint32_t frames = 1;
+  std::optional<double> display_exposure;
+  fs::path exposure_of;
+  bool flattens_field = false;
+  ViewOptions view;
+  fs::path profile;
+  std::optional<std::uint64_t> seed;
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
+};
 
 // File of one of several exposures, numbered from 1: "dark_0003.tif".
 fs::path numbered(const fs::path& path, std::uint32_t frame, const DevelopOptions& options) {
@@ -57,8 +82,8 @@ std::vector<fs::path> polarisation_files(const DevelopOptions& options) {
 }
 
 bool overrides_pointer(const DevelopOptions& options, std::string_view pointer) {
-  return std::any_of(options.overrides.begin(), options.overrides.end(),
-                     [pointer](const Override& o) { return o.pointer == pointer; });
+  return std::ranges::any_of(options.overrides,
+                             [pointer](const Override& o) { return o.pointer == pointer; });
 }
 
 // Rejects options that have no effect because of others.
@@ -283,7 +308,7 @@ void set_field(FilmSensor& sensor, const DevelopOptions& options) {
 void add_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inputs) {
   if (options.profile.empty()) return;
   const auto is_dng = [](const fs::path& path) { return extension_of(path) == ".dng"; };
-  if (std::none_of(options.outputs.begin(), options.outputs.end(), is_dng))
+  if (std::ranges::none_of(options.outputs, is_dng))
     throw Error(ErrorCode::usage, "--profile", "applies to .dng files only (allowed with -o FILE.dng)");
   if (sensor.channels.size() != 3)
     throw Error(ErrorCode::usage, "--profile",
@@ -359,9 +384,10 @@ double exposure_of_film(const DevelopOptions& options, Inputs& inputs) {
                        display_planes(exposed.sensor, abbe::develop(exposed, seed).calibrated));
 }
 
-}  // namespace
-
-int develop(const DevelopOptions& options) {
+// Converts a film to digital numbers, files and pictures without rendering. Prints the sensor's noise and the
+// error of the render for the first exposure. All outputs are tried, even if one fails; the first failure is
+// thrown then.
+void develop(const DevelopOptions& options) {
   const std::vector<fs::path> outputs = check_outputs(options);
   std::deque<FileLock> locks;
   for (const fs::path& file : writable_among(outputs)) locks.emplace_back(file);
@@ -372,7 +398,7 @@ int develop(const DevelopOptions& options) {
   require_distinct(outputs, inputs.files());
   const FilmSensor& sensor = exposed.sensor;
   if (sensor.display) require_distinct(outputs, sensor.display->files());
-  const bool wants_raw = std::any_of(options.outputs.begin(), options.outputs.end(), is_raw_file);
+  const bool wants_raw = std::ranges::any_of(options.outputs, is_raw_file);
   if (wants_raw && !sensor.readout)
     throw Error(
         ErrorCode::usage, "-o",
@@ -388,7 +414,91 @@ int develop(const DevelopOptions& options) {
   // At most three further planes exist for each plane of the film and of its variance.
   inputs.reserve_memory("developing", 3 * exposed.film.memory_bytes());
   print(json_of(sensor, develop_frames(exposed, options)), options.json);
-  return 0;
+}
+
+// Adds the options of `develop` for the exposure and for calibration frames.
+void add_exposure(CLI::App& options, DevelopOptions& settings) {
+  add_parsed(options, "--exposure-s", settings.exposure_s, number_in(1e-12, 1e9),
+             "Exposure time to simulate in s, without a new render; channels with their own times keep their "
+             "ratio to it, and motion blur stays that of the film",
+             "T");
+  options
+      .add_option_function<std::vector<std::string>>(
+          "--light",
+          [&settings](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts)
+              settings.lights.push_back(parse_light_factor("--light", text));
+          },
+          "Multiply the contribution of a light by a factor >= 0, or by one factor per plane; needs a film "
+          "with a layer per light; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME=FACTOR[,...]");
+  add_parsed(options, "--frame", settings.frame, parse_calibration_frame,
+             "Develop a calibration frame instead of the scene: bias (readout only), dark (no light, "
+             "exposure time of the film) or flat (uniform light at this fraction of saturation, default 0.5)",
+             "bias|dark|flat[:FRACTION]");
+  add_parsed(options, "--frames", settings.frames, integer_in<std::uint32_t>(1, 9999),
+             "Number of exposures with independent noise, which are numbered in the file names (default 1)",
+             "N");
+  add_parsed(options, "--iso", settings.iso, number_in(1e-12, 1e9),
+             "ISO speed of the sensor, which replaces its gain", "N");
+}
+
+// Adds the options of `develop` for pictures.
+void add_display(CLI::App& options, DevelopOptions& settings) {
+  add_parsed(options, "--exposure", settings.display_exposure, number_in(1e-30, 1e30),
+             "Film value that pictures show as white (default: the scene's, otherwise chosen from the film)",
+             "X");
+  add_value(options, "--exposure-of", settings.exposure_of,
+            "Film whose display exposure the pictures use, as this command would choose it; for "
+            "example the first of several frames",
+            "FILE.exr")
+      ->excludes("--exposure");
+  options.add_flag("--field", settings.flattens_field,
+                   "Balance white at every position of the field, for filters that respond differently to "
+                   "oblique light (default: at its centre)");
+  add_value(options, "--white", settings.white,
+            "White of the pictures, as output/white of a scene (default: the film's)", "NAME|[X,Y]");
+  add_value(options, "--screen", settings.view.display,
+            "Display of the OpenColorIO configuration (default: its first)", "NAME");
+  add_value(options, "--view", settings.view.view, "View of that display (default: its first)", "NAME");
+  add_value(options, "--ocio", settings.view.config,
+            "OpenColorIO configuration of the pictures (default: $OCIO, otherwise Abbe's own)", "FILE.ocio");
+}
+
+}  // namespace
+
+void add_develop(CLI::App& app, Command& command) {
+  const Subcommand<DevelopOptions> sub(
+      app, "develop", "Convert a film to digital numbers, raw files and pictures, without rendering", command,
+      develop);
+  CLI::App& options = *sub.app;
+  add_value(options, "film", sub->film, "Film of render, multi-part film of develop, or spectral image",
+            "FILE.exr")
+      ->required();
+  add_value(options, "-o,--output", sub->outputs,
+            "Raw file of the digital numbers, or .exr of all planes from the exposure to the preview; "
+            "may be repeated",
+            "FILE.dng|FILE.tif|FILE.fits|FILE.png|FILE.exr")
+      ->allow_extra_args(false);
+  add_value(options, "--display", sub->display, "Write a picture for a display (default: sRGB)", "FILE.png");
+  add_value(options, "--stokes", sub->polarisation,
+            "Folder for pictures of the degree and angle of polarisation, and for their values (.exr)",
+            "FOLDER");
+  add_value(options, "--profile", sub->profile,
+            "Calibration for two illuminants by calibrate, whose matrices a .dng contains (default: "
+            "the film's own matrix for its white)",
+            "dng.json");
+  add_value(options, "--scene", sub->scene, "Scene whose camera and sensor record a spectral image", "SCENE");
+  add_exposure(options, *sub.options);
+  add_display(options, *sub.options);
+  add_overrides(
+      options, sub.options,
+      "Replace a value of the readout, such as /readout/bits=12, or /output/white; may be repeated");
+  add_parsed(options, "--seed", sub->seed, integer_in<std::uint64_t>(0, kMaxSeed),
+             "Seed of the noise (default: that of the render)", "N");
+  add_max_memory(options, sub.options);
+  add_json(options, sub->json);
 }
 
 }  // namespace abbe::cli

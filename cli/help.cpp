@@ -4,7 +4,6 @@
 #include <array>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -72,12 +71,7 @@ bool is_help(const OptionUsage& option) {
 
 std::string replaced(std::string_view text, char what, std::string_view by) {
   std::string result;
-  for (const char c : text) {
-    if (c == what)
-      result += by;
-    else
-      result += c;
-  }
+  for (const char c : text) result += c == what ? by : std::string_view(&c, 1);
   return result;
 }
 
@@ -222,7 +216,7 @@ std::string without(std::string text, std::string_view characters) {
 
 // True for placeholders of files, such as "FILE.exr|FILE.abbepart".
 bool names_files(const std::vector<std::string>& words) {
-  return std::all_of(words.begin(), words.end(), [](const std::string& word) {
+  return std::ranges::all_of(words, [](const std::string& word) {
     const std::size_t dot = word.find('.');
     return dot != std::string::npos && dot + 1 < word.size() && word[dot + 1] != '.';
   });
@@ -246,7 +240,7 @@ std::string kind_of(const std::string& value, const CommandUsage& program) {
   if (word == "KEY")
     return fmt::format("words {}", fmt::join(schema::all_keys(schema::fields_of<spec::Scene>()), " "));
   const std::string kind = lower_case(word);
-  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end() ? "names " + kind : "none";
+  return std::ranges::find(kinds, kind) != kinds.end() ? "names " + kind : "none";
 }
 
 // Patterns of `_abbe_kind` for one option: all its names, or the position of an argument. A repeated argument
@@ -307,15 +301,8 @@ std::string bash_completion(const CommandUsage& program) {
 }  // namespace
 
 std::string reference(const CommandUsage& program, ReferenceFormat format) {
-  switch (format) {
-    case ReferenceFormat::markdown:
-      return markdown(program);
-    case ReferenceFormat::man:
-      return man(program);
-    case ReferenceFormat::bash:
-      return bash_completion(program);
-  }
-  return {};
+  if (format == ReferenceFormat::markdown) return markdown(program);
+  return format == ReferenceFormat::man ? man(program) : bash_completion(program);
 }
 
 std::string slurm_help(const std::string& name) {

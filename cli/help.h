@@ -39,8 +39,7 @@ enum class ReferenceFormat { markdown, man, bash };
 /// the exact bytes of the named job. Throws Error{usage} for an unknown name.
 [[nodiscard]] std::string slurm_help(const std::string& name);
 
-/// Text of `abbe --version`, one fact per line: the version, the tables in use and their hash, the compiler,
-/// and the libraries. Throws Error{input} if there are no tables.
+/// Text of `abbe --version`. Throws Error{input} if there are no tables.
 [[nodiscard]] std::string version_text();
 
 }  // namespace abbe::cli

@@ -2,9 +2,7 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -56,15 +54,9 @@ void check_material(const Material& material, const std::vector<double>& at_nm) 
   if (at_requested && at_requested != at_visible) warn(at_requested);
 }
 
-Json means(const std::vector<Estimate>& estimates) {
+Json figures(const std::vector<Estimate>& estimates, double Estimate::*figure) {
   Json list = Json::array();
-  for (const Estimate& e : estimates) list.push_back(e.mean);
-  return list;
-}
-
-Json errors(const std::vector<Estimate>& estimates) {
-  Json list = Json::array();
-  for (const Estimate& e : estimates) list.push_back(e.standard_error);
+  for (const Estimate& e : estimates) list.push_back(e.*figure);
   return list;
 }
 
@@ -73,10 +65,10 @@ Json rows_of(const GoniometerReport& report) {
   Json rows = Json::array();
   for (const GoniometerAngle& at : report.angles)
     rows.push_back({{"angle_deg", at.angle_deg},
-                    {"R", means(at.reflected)},
-                    {"R_error", errors(at.reflected)},
-                    {"T", means(at.transmitted)},
-                    {"T_error", errors(at.transmitted)},
+                    {"R", figures(at.reflected, &Estimate::mean)},
+                    {"R_error", figures(at.reflected, &Estimate::standard_error)},
+                    {"T", figures(at.transmitted, &Estimate::mean)},
+                    {"T_error", figures(at.transmitted, &Estimate::standard_error)},
                     {"reflected_XYZ", at.reflected_color.xyz},
                     {"reflected_Y_error", at.reflected_color.Y_error},
                     {"reflected_Lab", at.reflected_color.lab},
@@ -132,7 +124,7 @@ void print_table(const Json& answer, const LabOptions& options, const Goniometer
 
 }  // namespace
 
-int lab(const LabOptions& options) {
+void lab(const LabOptions& options) {
   for (const std::filesystem::path& output : {options.plot, options.map})
     if (!output.empty()) require_writable(output);
   Diagnostics diagnostics;
@@ -152,7 +144,6 @@ int lab(const LabOptions& options) {
     print(answer, true);
   else
     print_table(answer, options, report);
-  return 0;
 }
 
 }  // namespace abbe::cli

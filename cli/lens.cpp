@@ -1,5 +1,3 @@
-#include "cli/lens.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "cli/command_options.h"
 #include "cli/output_files.h"
 #include "description/lens_files.h"
 #include "io/atomic_file.h"
@@ -20,16 +19,20 @@ namespace {
 using lens::FirstOrder;
 using lens::Speed;
 
+struct LensOptions {
+  std::string lens;
+  std::vector<double> wavelengths_nm;
+  std::vector<double> frequencies_per_mm{10, 20, 40};
+  std::filesystem::path html;
+  std::filesystem::path drawing;
+  bool json = false;
+};
+
 constexpr double kUmPerMm = 1000;
 
 // Null if the value is missing or not finite.
-Json optional(const std::optional<double>& value, double factor = 1) {
+Json finite(const std::optional<double>& value, double factor = 1) {
   return value && std::isfinite(*value) ? Json(factor * *value) : Json();
-}
-
-// Null if the value is not finite.
-Json finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
 }
 
 Json first_order_answer(const LensFigures& figures) {
@@ -95,8 +98,8 @@ Json fans_answer(const LensFigures& figures, const LensFieldFigures& field) {
     Json one{{"wavelength_nm", figures.system.wavelengths_nm[w]}, {"pupil", fan.pupil}};
     one["tangential_um"] = one["sagittal_um"] = Json::array();
     for (std::size_t i = 0; i < fan.pupil.size(); ++i) {
-      one["tangential_um"].push_back(optional(fan.tangential[i], kUmPerMm));
-      one["sagittal_um"].push_back(optional(fan.sagittal[i], kUmPerMm));
+      one["tangential_um"].push_back(finite(fan.tangential[i], kUmPerMm));
+      one["sagittal_um"].push_back(finite(fan.sagittal[i], kUmPerMm));
     }
     fans.push_back(std::move(one));
   }
@@ -111,11 +114,11 @@ Json spots_answer(const LensFieldFigures& field) {
     const auto& chief = field.chiefs[w];
     Json one{{"wavelength_nm", spot.wavelength_nm}, {"rays", spot.rays.size()}};
     one["chief_mm"] = chief ? Json(chief->height_mm) : Json();
-    one["distortion_percent"] = chief ? optional(chief->distortion, 100) : Json();
+    one["distortion_percent"] = chief ? finite(chief->distortion, 100) : Json();
     one["centroid_mm"] = size ? Json{size->centroid.x, size->centroid.y} : Json();
     one["rms_um"] = size ? Json(kUmPerMm * size->rms_mm) : Json();
     one["largest_um"] = size ? Json(kUmPerMm * size->largest_mm) : Json();
-    one["vignetting_percent"] = optional(spot.vignetting(), 100);
+    one["vignetting_percent"] = finite(spot.vignetting(), 100);
     spots.push_back(std::move(one));
   }
   return spots;
@@ -125,8 +128,8 @@ Json field_answer(const LensFigures& figures, const LensFieldFigures& field) {
   const auto size = lens::size_of(field.spots);
   Json answer{{figures.system.object_distance_mm ? "object_height_mm" : "field_deg", field.field}};
   answer["rms_um"] = size ? Json(kUmPerMm * size->rms_mm) : Json();
-  answer["lateral_color_um"] = optional(field.lateral_color_mm(), kUmPerMm);
-  answer["relative_illumination"] = optional(field.relative_illumination);
+  answer["lateral_color_um"] = finite(field.lateral_color_mm(), kUmPerMm);
+  answer["relative_illumination"] = finite(field.relative_illumination);
   answer["mtf"] = {{"per_mm", figures.frequencies_per_mm},
                    {"tangential", field.tangential_mtf},
                    {"sagittal", field.sagittal_mtf}};
@@ -142,7 +145,7 @@ Json whole_answer(const LensFigures& figures) {
   answer["stop_surface"] = figures.system.stop + 1;
   answer["stop_radius_mm"] = figures.stop_radius_mm;
   answer["image_mm"] = figures.system.surfaces.back().thickness_mm;
-  answer["best_focus_shift_mm"] = optional(figures.best_focus_mm);
+  answer["best_focus_shift_mm"] = finite(figures.best_focus_mm);
   return answer;
 }
 
@@ -153,10 +156,10 @@ void add_row(const LensFigures& figures, const LensFieldFigures& field, Json& ta
   const auto& chief = field.chiefs[primary];
   table[figures.system.object_distance_mm ? "object_height_mm" : "field_deg"].push_back(field.field);
   table["image_mm"].push_back(chief ? Json(chief->height_mm) : Json());
-  table["distortion_%"].push_back(chief ? optional(chief->distortion, 100) : Json());
-  table["lateral_color_um"].push_back(optional(field.lateral_color_mm(), kUmPerMm));
-  table["vignetting_%"].push_back(optional(field.spots[primary].vignetting(), 100));
-  table["relative_illumination"].push_back(optional(field.relative_illumination));
+  table["distortion_%"].push_back(chief ? finite(chief->distortion, 100) : Json());
+  table["lateral_color_um"].push_back(finite(field.lateral_color_mm(), kUmPerMm));
+  table["vignetting_%"].push_back(finite(field.spots[primary].vignetting(), 100));
+  table["relative_illumination"].push_back(finite(field.relative_illumination));
   table["rms_um"].push_back(size ? Json(kUmPerMm * size->rms_mm) : Json());
   for (std::size_t i = 0; i < figures.frequencies_per_mm.size(); ++i) {
     table[fmt::format("T{:g}", figures.frequencies_per_mm[i])].push_back(field.tangential_mtf[i]);
@@ -202,28 +205,21 @@ Json lens_answer(const LensFigures& figures) {
   return answer;
 }
 
-// Figures of a lens as tables, each an object with a list per column. `whole` has a single value per key.
+// Figures of a lens as tables, each an object with a list per column. Numbers are texts of seven digits,
+// except in `whole`, which has a single value per key.
 struct LensTables {
-  Json whole;        ///< The whole lens.
+  Json whole;
   Json wavelengths;  ///< First-order properties by wavelength.
   Json surfaces;     ///< Seidel sums [mm] by surface, counted from 1, and their sum.
   Json fields;       ///< Distortion, spots and modulation by field.
   Json ghosts;       ///< Up to ten ghosts, the brightest first; surfaces are counted from 1.
 };
-
-// Tables of these figures. Numbers are texts of seven digits, except in `whole`, where they are not rounded.
 LensTables lens_tables(const LensFigures& figures) {
   constexpr std::size_t kGhosts = 10;
-  LensTables tables{whole_answer(figures),
-                    {},
-                    rounded(seidel_answer(figures.seidel)),
-                    {},
-                    rounded(ghosts_answer(figures, kGhosts))};
-  const Json wavelengths = wavelength_answer(figures);
-  tables.wavelengths = rounded(wavelengths);
-  for (const LensFieldFigures& field : figures.fields) add_row(figures, field, tables.fields);
-  tables.fields = rounded(std::move(tables.fields));
-  return tables;
+  Json fields;
+  for (const LensFieldFigures& field : figures.fields) add_row(figures, field, fields);
+  return {whole_answer(figures), rounded(wavelength_answer(figures)), rounded(seidel_answer(figures.seidel)),
+          rounded(std::move(fields)), rounded(ghosts_answer(figures, kGhosts))};
 }
 
 // HTML table with a column per list.
@@ -268,11 +264,6 @@ std::string lens_page(const LensFigures& figures) {
   return html + kPageEnd;
 }
 
-lens::System load(const LensOptions& options, Inputs& inputs) {
-  Diagnostics diagnostics;
-  return accepted(load_lens(options.lens, diagnostics, &inputs, {}, options.wavelengths_nm), diagnostics);
-}
-
 // Transposed table with a line per column.
 std::string transposed(const Json& columns) {
   std::string lines;
@@ -287,29 +278,47 @@ std::string transposed(const Json& columns) {
   return lines;
 }
 
-void print_tables(const LensFigures& figures) {
+std::string tables_text(const LensFigures& figures) {
   const LensTables tables = lens_tables(figures);
-  fmt::print("{}\n{}\n{}\n{}\nbrightest ghosts\n{}", text(tables.whole, false),
-             transposed(tables.wavelengths), text(tables.surfaces, false), text(tables.fields, false),
-             text(tables.ghosts, false));
+  return fmt::format("{}\n{}\n{}\n{}\nbrightest ghosts\n{}", text(tables.whole, false),
+                     transposed(tables.wavelengths), text(tables.surfaces, false), text(tables.fields, false),
+                     text(tables.ghosts, false));
 }
 
-}  // namespace
-
-int lens(const LensOptions& options) {
+void lens(const LensOptions& options) {
   if (!options.html.empty()) require_extension(options.html, {".html"});
   if (!options.drawing.empty()) require_extension(options.drawing, {".svg"});
   Inputs inputs;
-  const lens::System system = load(options, inputs);
+  Diagnostics diagnostics;
+  const lens::System system =
+      accepted(load_lens(options.lens, diagnostics, &inputs, {}, options.wavelengths_nm), diagnostics);
   require_distinct(std::array{options.html, options.drawing}, inputs.files());
   const LensFigures figures = lens_figures(system, options.frequencies_per_mm);
   if (!options.html.empty()) write_atomically(options.html, lens_page(figures));
   if (!options.drawing.empty()) write_atomically(options.drawing, lens_drawing(figures));
-  if (options.json)
-    print(lens_answer(figures), true);
-  else
-    print_tables(figures);
-  return 0;
+  fmt::print("{}", options.json ? text(lens_answer(figures), true) : tables_text(figures));
+}
+
+}  // namespace
+
+void add_lens(CLI::App& app, Command& command) {
+  const Subcommand<LensOptions> sub(
+      app, "lens", "Report the first-order properties, aberrations, spots and losses of a lens", command,
+      lens);
+  add_value(*sub.app, "lens", sub->lens,
+            "Prescription (.json), lens of Zemax (.zmx), table of pbrt (.dat), or a name in data/lens",
+            "FILE.json|FILE.zmx|FILE.dat")
+      ->required();
+  add_parsed(*sub.app, "--lambda", sub->wavelengths_nm, numbers_in(kMinWavelengthNm, kMaxWavelengthNm),
+             "Wavelengths in nm that replace those of the lens; the primary one is at the centre of the "
+             "list, and stop and focus stay as set at the lens's own",
+             "NM,...");
+  add_parsed(*sub.app, "--frequencies", sub->frequencies_per_mm, numbers_in(1e-3, 1e4),
+             "Spatial frequencies of the modulation transfer function in cycles per mm (default 10,20,40)",
+             "N,...");
+  add_value(*sub.app, "--html", sub->html, "HTML page to write", "FILE.html");
+  add_value(*sub.app, "-o,--output", sub->drawing, "Drawing of the lens to write", "FILE.svg");
+  add_json(*sub.app, sub->json);
 }
 
 }  // namespace abbe::cli

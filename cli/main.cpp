@@ -51,7 +51,7 @@ int run(int argc, char** argv) {
     }
   if (arguments.empty()) arguments = {"help"};
   check_names(app, arguments);
-  std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 expects
+  std::ranges::reverse(arguments);  // the order that CLI11 expects
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& e) {

@@ -10,7 +10,6 @@
 #include "cli/arguments.h"
 #include "cli/lab.h"
 #include "cli/query.h"
-#include "cli/sensor_measurements.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe::cli {
@@ -31,15 +30,15 @@ void add_at(CLI::App& app, std::vector<double>& at_nm) {
 void add_json_with_arrays(CLI::App& app, bool& json, bool& arrays) {
   add_json(app, json);
   app.add_flag("--arrays", arrays, "Print lists in JSON even for a single wavelength or angle")
-      ->needs(app.get_option("--json"));
+      ->needs("--json");
 }
 
 constexpr const char* kMaterialHelp = "Name of a material, FILE.csv, or FILE.yml of refractiveindex.info";
 
 Subcommand<IndexOptions> add_index_query(CLI::App& query, const std::string& name, const std::string& help,
-                                         Command& command, int (*run)(const IndexOptions&)) {
+                                         Command& command, void (*run)(const IndexOptions&)) {
   Subcommand<IndexOptions> sub(query, name, help, command, run);
-  sub.app->add_option("name", sub->name, kMaterialHelp)->required()->type_name("MATERIAL");
+  add_value(*sub.app, "name", sub->name, kMaterialHelp, "MATERIAL")->required();
   add_at(*sub.app, sub->at_nm);
   add_json_with_arrays(*sub.app, sub->json, sub->arrays);
   return sub;
@@ -61,21 +60,20 @@ void add_material_queries(CLI::App& query, Command& command) {
       query, "reflectance",
       "Reflectance of a polished surface in air, or in the medium to which its index is relative", command,
       query_reflectance);
-  reflectance.app->add_option("name", reflectance->name, kMaterialHelp)->required()->type_name("MATERIAL");
+  add_value(*reflectance.app, "name", reflectance->name, kMaterialHelp, "MATERIAL")->required();
   add_at(*reflectance.app, reflectance->at_nm);
   add_parsed(*reflectance.app, "--angle", reflectance->angles_deg, numbers_in(0, 90),
              "Angles of incidence in degrees, 0 to 90 (default 0)", "DEG[,DEG...]");
-  reflectance.app
-      ->add_option("--coating", reflectance->coating,
-                   "Thin films on the surface with their thicknesses in nm, from outside inwards; light then "
-                   "comes from air, and the transmittance T is also printed")
-      ->type_name("MATERIAL:NM[,MATERIAL:NM...]");
+  add_value(*reflectance.app, "--coating", reflectance->coating,
+            "Thin films on the surface with their thicknesses in nm, from outside inwards; light then "
+            "comes from air, and the transmittance T is also printed",
+            "MATERIAL:NM[,MATERIAL:NM...]");
   add_json_with_arrays(*reflectance.app, reflectance->json, reflectance->arrays);
 
   const Subcommand<PrismOptions> prism(
       query, "prism", "Deviation by a prism in air, at minimum deviation or at a given incidence", command,
       query_prism);
-  prism.app->add_option("name", prism->name, kMaterialHelp)->required()->type_name("MATERIAL");
+  add_value(*prism.app, "name", prism->name, kMaterialHelp, "MATERIAL")->required();
   add_at(*prism.app, prism->at_nm);
   add_parsed(*prism.app, "--apex", prism->apex_deg, number_in(1e-6, 180 - 1e-6),
              "Apex angle in degrees, between 0 and 180", "DEG")
@@ -105,18 +103,14 @@ void add_sum_range(CLI::App& app, Range& range) {
 void add_color_queries(CLI::App& query, Command& command) {
   const Subcommand<ColorOptions> color(query, "color", "Colour of a reflectance under an illuminant", command,
                                        query_color);
-  color.app
-      ->add_option("--illuminant", color->illuminant,
-                   "Name of an illuminant, blackbody:K or daylight:K with a temperature in K")
-      ->required()
-      ->type_name("ILLUMINANT");
+  add_value(*color.app, "--illuminant", color->illuminant,
+            "Name of an illuminant, blackbody:K or daylight:K with a temperature in K", "ILLUMINANT")
+      ->required();
   add_parsed(*color.app, "--observer", color->observer, one_of<Observer>({"1931", "1964"}),
              "Standard observer of the CIE: 1931 (2 degrees) or 1964 (10 degrees) (default 1931)",
              "1931|1964");
-  color.app
-      ->add_option("--reflectance", color->reflectance,
-                   "Name of a reflectance, or FILE.csv:COLUMN (default: perfect diffuser)")
-      ->type_name("REFLECTANCE");
+  add_value(*color.app, "--reflectance", color->reflectance,
+            "Name of a reflectance, or FILE.csv:COLUMN (default: perfect diffuser)", "REFLECTANCE");
   add_parsed(
       *color.app, "--method", color->method, one_of<ColorMethod>({"1nm", "astm-e308"}),
       "Sum in steps of 1 nm, or over the measured wavelengths with the weights of ASTM E308 (default 1nm)",
@@ -137,24 +131,19 @@ void add_color_queries(CLI::App& query, Command& command) {
   const Subcommand<CameraOptions> camera(
       query, "camera", "Raw values of a camera, scaled to 1 for green of the perfect diffuser", command,
       query_camera);
-  camera.app->add_option("name", camera->name, "Name of a camera, or FILE.csv of spectral responses")
-      ->required()
-      ->type_name("CAMERA");
-  CLI::Option* illuminant =
-      camera.app
-          ->add_option("--illuminant", camera->illuminant,
-                       "Name of an illuminant, blackbody:K or daylight:K with a temperature in K")
-          ->type_name("ILLUMINANT");
-  camera.app
-      ->add_option("--reflectance", camera->reflectance,
-                   "Name of a reflectance, or FILE.csv:COLUMN (default: perfect diffuser)")
-      ->needs(illuminant)
-      ->type_name("REFLECTANCE");
+  add_value(*camera.app, "name", camera->name, "Name of a camera, or FILE.csv of spectral responses",
+            "CAMERA")
+      ->required();
+  add_value(*camera.app, "--illuminant", camera->illuminant,
+            "Name of an illuminant, blackbody:K or daylight:K with a temperature in K", "ILLUMINANT");
+  add_value(*camera.app, "--reflectance", camera->reflectance,
+            "Name of a reflectance, or FILE.csv:COLUMN (default: perfect diffuser)", "REFLECTANCE")
+      ->needs("--illuminant");
   camera.app
       ->add_flag("--judge", camera->metrics,
                  "Print metrics of colour accuracy instead: Vora value, residuals of Luther's condition, "
                  "sensitivity metamerism index")
-      ->excludes(illuminant);
+      ->excludes("--illuminant");
   add_response(*camera.app, "--response", camera->response);
   add_json(*camera.app, camera->json);
 }
@@ -163,23 +152,18 @@ void add_light_queries(CLI::App& query, Command& command) {
   const Subcommand<LightOptions> light(
       query, "light", "Colour temperature, colour rendering (Ra, TM-30) and luminous efficacy of a light",
       command, query_light);
-  light.app
-      ->add_option(
-          "name", light->name,
-          "Name of an illuminant, blackbody:K, daylight:K, FILE.csv:COLUMN, or a spectral image FILE.exr")
-      ->required()
-      ->type_name("ILLUMINANT");
-  light.app->add_option("--filter", light->filters, "Filters through which the light passes: names or files")
-      ->type_name("FILTER[,FILTER...]");
-  light.app
-      ->add_option("--reflectance", light->reflectance,
-                   "Surface that reflects the light: a name or FILE.csv:COLUMN")
-      ->type_name("REFLECTANCE");
+  add_value(*light.app, "name", light->name,
+            "Name of an illuminant, blackbody:K, daylight:K, FILE.csv:COLUMN, or a spectral image FILE.exr",
+            "ILLUMINANT")
+      ->required();
+  add_value(*light.app, "--filter", light->filters, "Filters through which the light passes: names or files",
+            "FILTER[,FILTER...]");
+  add_value(*light.app, "--reflectance", light->reflectance,
+            "Surface that reflects the light: a name or FILE.csv:COLUMN", "REFLECTANCE");
   add_parsed(*light.app, "--crop", light->crop, parse_crop,
              "Pixels of a spectral image to average, X0 <= x < X1 and Y0 <= y < Y1 (default: all)",
              "X0,Y0,X1,Y1");
-  light.app->add_option("--plot", light->plot, "Colour vector graphic of TM-30 to write")
-      ->type_name("FILE.svg");
+  add_value(*light.app, "--plot", light->plot, "Colour vector graphic of TM-30 to write", "FILE.svg");
   light.app->add_flag("--samples", light->samples,
                       "Also print the colour fidelity of each of the 99 samples");
   add_sum_range(*light.app, light->range);
@@ -191,17 +175,15 @@ void add_light_queries(CLI::App& query, Command& command) {
       "Colour difference, under a test illuminant, of two surfaces that match under a reference illuminant",
       command, query_metamerism);
   for (auto* name : {&metamers->first, &metamers->second})
-    metamers.app
-        ->add_option(name == &metamers->first ? "first" : "second", *name,
-                     "Name of a reflectance, or FILE.csv:COLUMN")
-        ->required()
-        ->type_name("REFLECTANCE");
-  metamers.app->add_option("--reference", metamers->reference, "Illuminant under which the surfaces match")
-      ->capture_default_str()
-      ->type_name("ILLUMINANT");
-  metamers.app->add_option("--test", metamers->test, "Illuminant under which the surfaces are compared")
-      ->capture_default_str()
-      ->type_name("ILLUMINANT");
+    add_value(*metamers.app, name == &metamers->first ? "first" : "second", *name,
+              "Name of a reflectance, or FILE.csv:COLUMN", "REFLECTANCE")
+        ->required();
+  add_value(*metamers.app, "--reference", metamers->reference, "Illuminant under which the surfaces match",
+            "ILLUMINANT")
+      ->capture_default_str();
+  add_value(*metamers.app, "--test", metamers->test, "Illuminant under which the surfaces are compared",
+            "ILLUMINANT")
+      ->capture_default_str();
   add_sum_range(*metamers.app, metamers->range);
   add_json(*metamers.app, metamers->json);
 }
@@ -212,9 +194,8 @@ void add_query(CLI::App& app, Command& command) {
   CLI::App* query = app.add_subcommand("query", "Look up data and evaluate closed forms");
   auto options = std::make_shared<ListOptions>();
   CLI::Option* list =
-      query->add_option("--list", options->kind, "List the names of all kinds of data, or of one")
-          ->expected(0, 1)
-          ->type_name("[KIND]");
+      add_value(*query, "--list", options->kind, "List the names of all kinds of data, or of one", "[KIND]")
+          ->expected(0, 1);
   query->add_flag("--json", options->json, "Print the list as one JSON object")->needs(list);
   add_material_queries(*query, command);
   add_color_queries(*query, command);
@@ -227,73 +208,37 @@ void add_query(CLI::App& app, Command& command) {
                               questions.front()->get_name()));
     }
     if (list->count() == 0) throw CLI::RequiredError("query: the name of a query, or --list,");
-    command = [options] { return query_list(*options); };
+    command = [options] {
+      query_list(*options);
+      return 0;
+    };
   });
-}
-
-void add_transfer(CLI::App& app, Command& command) {
-  const Subcommand<TransferOptions> sub(
-      app, "transfer", "Gain, noise and dynamic range of a sensor from pairs of flat and dark raw files",
-      command, transfer);
-  sub.app
-      ->add_option("--dark", sub->dark,
-                   "Dark frames in successive pairs of equal exposure, with at least two exposure times")
-      ->required()
-      ->type_name("FILE...");
-  sub.app
-      ->add_option("--lit", sub->flat,
-                   "Uniformly illuminated (flat) frames in successive pairs of equal exposure, from weak "
-                   "light to above saturation")
-      ->required()
-      ->type_name("FILE...");
-  sub.app->add_option("--plot", sub->plot, "Plot of the photon-transfer curves to write")
-      ->type_name("FILE.svg");
-  add_max_memory(*sub.app, sub.options);
-  add_json(*sub.app, sub->json);
-}
-
-void add_mtf(CLI::App& app, Command& command) {
-  const Subcommand<MtfOptions> sub(
-      app, "mtf", "Modulation transfer function of a slanted edge in a linear image", command, mtf);
-  sub.app->add_option("image", sub->image, "Film or linear picture with a slanted edge")
-      ->required()
-      ->type_name("FILE");
-  add_parsed(*sub.app, "--crop", sub->crop, parse_crop,
-             "Pixels around the edge, X0 <= x < X1 and Y0 <= y < Y1 (default: all)", "X0,Y0,X1,Y1");
-  sub.app
-      ->add_option("--channel", sub->channel,
-                   "Channel to evaluate (default: G, otherwise Y, otherwise the first)")
-      ->type_name("NAME");
-  sub.app->add_option("--plot", sub->plot, "Plot of the function to write")->type_name("FILE.svg");
-  add_max_memory(*sub.app, sub.options);
-  add_json(*sub.app, sub->json);
 }
 
 void add_lab(CLI::App& app, Command& command) {
   const Subcommand<LabOptions> sub(app, "lab", "Measure the scattering of a material on the BSDF bench",
                                    command, lab);
   CLI::App& options = *sub.app;
-  options
-      .add_option(
-          "material", sub->material,
-          "Scene file and name of one of its materials, file of a single material, or the JSON of a material")
-      ->required()
-      ->type_name("FILE.json[:NAME]|JSON");
+  add_value(
+      options, "material", sub->material,
+      "Scene file and name of one of its materials, file of a single material, or the JSON of a material",
+      "FILE.json[:NAME]|JSON")
+      ->required();
   add_parsed(options, "--at", sub->at_nm, numbers_in(kMinWavelengthNm, kMaxWavelengthNm),
              "Wavelengths in standard air in nm (default 450,550,650)", "NM[,NM...]");
   add_parsed(options, "--angle", sub->angles_deg, numbers_in(0, 89.9),
              "Angles of incidence in degrees, 0 to 89.9 (default 0,15,30,45,60,75,85)", "DEG[,DEG...]");
   options.add_flag("--inside", sub->inside, "Illuminate the surface from inside the material");
-  options.add_option("--illuminant", sub->illuminant, "Illuminant of the colours (default D65)")
-      ->type_name("ILLUMINANT");
+  add_value(options, "--illuminant", sub->illuminant, "Illuminant of the colours (default D65)",
+            "ILLUMINANT");
   add_parsed(options, "--observer", sub->observer, one_of<Observer>({"1931", "1964"}),
              "Standard observer of the CIE: 1931 (2 degrees) or 1964 (10 degrees) (default 1931)",
              "1931|1964");
   add_parsed(options, "--samples", sub->samples, integer_in<int>(256, kMaxSamples),
              "Samples per angle of incidence and group of eight wavelengths, at least 256 (default 8192)",
              "N");
-  options.add_option("--plot", sub->plot, "Polar plots of the lobes to write")->type_name("FILE.svg");
-  options.add_option("--map", sub->map, "Pictures of the hemispheres to write")->type_name("FILE.png");
+  add_value(options, "--plot", sub->plot, "Polar plots of the lobes to write", "FILE.svg");
+  add_value(options, "--map", sub->map, "Pictures of the hemispheres to write", "FILE.png");
   add_max_memory(options, sub.options);
   add_json(options, sub->json);
 }

@@ -1,12 +1,13 @@
-#include "cli/measure.h"
-
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <variant>
 
 #include <fmt/format.h>
 
 #include "calibration/chart/measured_patches.h"
 #include "cli/answer.h"
+#include "cli/command_options.h"
 #include "cli/output_files.h"
 #include "description/load.h"
 #include "develop/find_chart.h"
@@ -21,7 +22,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Corners of a chart in images without a scene, in the order and the unit of `outlines_between`.
 using Corners = std::array<Imath::V2d, 4>;
+/// Request to detect the corners in each image.
+struct FindCorners {};
+using ChartCorners = std::variant<FindCorners, Corners>;
+
+struct MeasureOptions {
+  std::vector<fs::path> images;
+  std::string chart;
+  std::optional<ChartCorners> corners;
+  std::size_t columns = 6;
+  fs::path flat;
+  fs::path output;
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
+};
 
 /// Chart to measure, with its scene if a scene gives its position.
 struct ChartToMeasure {
@@ -102,8 +118,7 @@ void measure_planes(const LinearImage& linear, const std::vector<PatchOutline>& 
   measured.patches = measure_patches(linear.image, planes, outlines);
   if (!planes.saturation) return;
   measured.clipped_at = planes.clipped_at = clipping_levels(linear.image, planes, measured.patches);
-  if (std::any_of(planes.clipped_at.begin(), planes.clipped_at.end(),
-                  [](const auto& level) { return level; }))
+  if (std::ranges::any_of(planes.clipped_at, [](const auto& level) { return level.has_value(); }))
     measured.patches = measure_patches(linear.image, planes, outlines);
 }
 
@@ -180,8 +195,8 @@ void warn_of_low_saturation(const Measurement& measured) {
 void warn_of_saturation(const Measurement& measured) {
   std::vector<std::string> names;
   for (const PatchValues& patch : measured.patches)
-    if (std::any_of(patch.channels.begin(), patch.channels.end(),
-                    [](const PatchChannel& channel) { return channel.is_saturated(); }))
+    if (std::ranges::any_of(patch.channels,
+                            [](const PatchChannel& channel) { return channel.is_saturated(); }))
       names.push_back(patch.name);
   if (names.empty()) return;
   print_message(
@@ -258,9 +273,7 @@ void require_one_table(const std::vector<Measurement>& all) {
               fmt::join(measured.channels, ", "), measured.file.string()));
 }
 
-}  // namespace
-
-int measure(const MeasureOptions& options) {
+void measure(const MeasureOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   for (const fs::path& image : options.images) inputs.add_file(image);
   if (!options.flat.empty()) inputs.add_file(options.flat);
@@ -295,7 +308,45 @@ int measure(const MeasureOptions& options) {
     print(one_or_all(std::move(list)), true);
   else
     for (const Measurement& measured : all) print_table(measured);
-  return 0;
+}
+
+ChartCorners parse_corners(const std::string& option, const std::string& text) {
+  if (text == "find") return FindCorners{};
+  const std::vector<double> numbers = parse_numbers(option, text, -1e6, 1e6);
+  if (numbers.size() != 8)
+    throw Error(ErrorCode::usage, option,
+                fmt::format("expected x and y of four corners (got {} numbers, allowed 8)", numbers.size()));
+  return Corners{Imath::V2d(numbers[0], numbers[1]), Imath::V2d(numbers[2], numbers[3]),
+                 Imath::V2d(numbers[4], numbers[5]), Imath::V2d(numbers[6], numbers[7])};
+}
+
+}  // namespace
+
+void add_measure(CLI::App& app, Command& command) {
+  const Subcommand<MeasureOptions> sub(
+      app, "measure", "Measure the patches of a chart in films, raw files and pictures", command, measure);
+  CLI::App& options = *sub.app;
+  add_value(options, "images", sub->images,
+            "Films, spectral films, raw files (.dng, .fits, .tif, .png) and other pictures", "FILE")
+      ->required();
+  add_value(options, "--chart", sub->chart,
+            "Scene with the chart, whose camera gives the position of the chart; with --corners, table "
+            "of its patches",
+            "SCENE|TABLE")
+      ->required();
+  add_parsed(options, "--corners", sub->corners, parse_corners,
+             "Top left, top right, bottom right and bottom left corner of the chart "
+             "in pixels; find detects a ColorChecker in each image",
+             "X,Y,X,Y,X,Y,X,Y|find");
+  add_parsed(options, "--columns", sub->columns, integer_in<std::size_t>(1, 1000),
+             "Patches per row of the chart (default 6)", "N")
+      ->needs("--corners");
+  add_value(options, "--flat", sub->flat,
+            "Picture of a uniform surface for flat-fielding, by which each pixel is divided", "FILE");
+  add_value(options, "-o,--output", sub->output,
+            "Table of the patches to write, as calibrate --measured reads it", "FILE.csv");
+  add_max_memory(options, sub.options);
+  add_json(options, sub->json);
 }
 
 }  // namespace abbe::cli

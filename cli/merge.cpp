@@ -1,5 +1,3 @@
-#include "cli/merge.h"
-
 #include <algorithm>
 #include <deque>
 #include <filesystem>
@@ -12,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/answer.h"
+#include "cli/command_options.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "develop/film_file.h"
@@ -25,6 +24,15 @@ namespace abbe::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct MergeOptions {
+  std::vector<fs::path> parts;
+  std::vector<fs::path> outputs;
+  std::optional<Crop> crop;
+  fs::path display;
+  bool partial = false;
+  std::size_t max_memory_bytes = default_memory_limit();
+};
 
 /// Header of the merged film, and the memory that its largest part needs.
 struct Headers {
@@ -98,9 +106,8 @@ std::vector<fs::path> check_outputs(const MergeOptions& options) {
   return files;
 }
 
-}  // namespace
-
-int merge(const MergeOptions& options) {
+// Adds parts of one render, which are ranges of samples and crops, and writes their film.
+void merge(const MergeOptions& options) {
   std::deque<FileLock> locks;
   for (const fs::path& file : check_outputs(options)) locks.emplace_back(file);
   const Headers headers = read_headers(options);
@@ -125,7 +132,28 @@ int merge(const MergeOptions& options) {
                   describe_samples(all.areas, all.shape, " of every pixel"),
                   missing.empty() ? "" : fmt::format("; missing: {}", describe_samples(missing, all.shape)),
                   error_text({.frame_mean = error, .few_samples = few_samples(sum)}, ", ")));
-  return 0;
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, Command& command) {
+  const Subcommand<MergeOptions> sub(app, "merge", "Merge parts of one render into its film", command, merge);
+  add_value(*sub.app, "parts", sub->parts, "Partial films of one render, in any order", "PART.abbepart...")
+      ->required();
+  add_value(*sub.app, "-o,--output", sub->outputs,
+            "Film (.exr) or partial film with exact sums (.abbepart) to write; may be repeated",
+            "FILE.exr|FILE.abbepart")
+      ->required()
+      ->allow_extra_args(false);
+  add_value(*sub.app, "--display", sub->display, "Also write a picture for a display, like that of render",
+            "FILE.png");
+  add_parsed(
+      *sub.app, "--crop", sub->crop,
+      [](const auto& option, const auto& text) { return parse_crop(option, text); },
+      "Pixels that the film must contain, X0 <= x < X1 and Y0 <= y < Y1 (default: all)", "X0,Y0,X1,Y1");
+  sub.app->add_flag("--partial", sub->partial,
+                    "Write the film even if it has fewer samples than --spp or the scene states");
+  add_max_memory(*sub.app, sub.options);
 }
 
 }  // namespace abbe::cli

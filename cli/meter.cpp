@@ -1,5 +1,3 @@
-#include "cli/meter.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "cli/command_options.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "io/atomic_file.h"
@@ -22,12 +21,16 @@
 namespace abbe::cli {
 namespace {
 
+struct MeterOptions : SamplingOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> meters;
+  std::filesystem::path spectra;
+  bool json = false;
+};
+
 abbe::RenderOptions render_options_of(const MeterOptions& options, const InterruptWatch& watch,
                                       ProgressDisplay& display) {
-  abbe::RenderOptions render_options;
-  render_options.threads = options.threads;
-  render_options.time_limit_s = options.time_limit_s;
-  render_options.target_error = options.target_error;
+  abbe::RenderOptions render_options = options.render;
   render_options.stop = &watch.stop();
   if (!options.quiet) render_options.progress = [&display](const Progress& progress) { display(progress); };
   return render_options;
@@ -132,7 +135,7 @@ void print_text(const MeterMeasurement& measured) {
   if (cells.empty()) return;
   std::vector<double> cell_values;
   for (const LightReading& cell : cells) cell_values.push_back(cell.luminous.mean);
-  const auto [min_value, max_value] = std::minmax_element(cell_values.begin(), cell_values.end());
+  const auto [min_value, max_value] = std::ranges::minmax_element(cell_values);
   const double sum = std::accumulate(cell_values.begin(), cell_values.end(), 0.0);
   fmt::print("  {} x {} cells from {:.6g} to {:.6g} {}{}\n", measured.meter.cells[0], measured.meter.cells[1],
              *min_value, *max_value, units.luminous,
@@ -160,7 +163,7 @@ std::string spectra_table(const std::vector<MeterMeasurement>& all) {
 void check_spectra(const MeterOptions& options, const std::vector<const Meter*>& meters) {
   if (options.spectra.empty()) return;
   require_extension(options.spectra, {".csv"});
-  if (std::none_of(meters.begin(), meters.end(), [](const Meter* m) { return m->spectrum.has_value(); }))
+  if (std::ranges::none_of(meters, [](const Meter* m) { return m->spectrum.has_value(); }))
     throw Error(ErrorCode::usage, "--spectra", "none of these meters has a spectrum");
   require_writable(options.spectra);
 }
@@ -187,8 +190,6 @@ std::vector<MeterMeasurement> measure_all(const MeteredScene& metered,
   return all;
 }
 
-}  // namespace
-
 int meter(const MeterOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
@@ -208,15 +209,40 @@ int meter(const MeterOptions& options) {
   const auto has_spectrum = [](const MeterMeasurement& measured) {
     return !measured.reading.spectrum.empty();
   };
-  if (!options.spectra.empty() && std::any_of(all.begin(), all.end(), has_spectrum))
+  if (!options.spectra.empty() && std::ranges::any_of(all, has_spectrum))
     write_atomically(options.spectra, spectra_table(all));
   if (watch.stop()) return kSignalExit + watch.signal();
   const auto has_dropped_samples = [](const MeterMeasurement& measured) {
     return measured.stats.nonfinite_samples > 0;
   };
-  return options.strict && std::any_of(all.begin(), all.end(), has_dropped_samples)
+  return options.strict && std::ranges::any_of(all, has_dropped_samples)
              ? static_cast<int>(ErrorCode::internal)
              : 0;
+}
+
+}  // namespace
+
+void add_meter(CLI::App& app, Command& command) {
+  const Subcommand<MeterOptions> sub(app, "meter", "Measure light with the meters of a scene", command,
+                                     meter);
+  CLI::App& options = *sub.app;
+  add_scene(options, sub->scene);
+  add_value(options, "--only", sub->meters, "Name of a meter to read; may be repeated (default: all)", "NAME")
+      ->allow_extra_args(false);
+  add_value(options, "--spectra", sub->spectra,
+            "Table to write with the spectra of those meters that record one", "FILE.csv");
+  add_samples(options, *sub.options,
+              "Samples per sub-area of a meter, which has at least 1024 of them (default: the scene's)",
+              "the largest relative standard error of a meter's radiant, luminous and photon values",
+              " for each meter");
+  add_integrator(options, *sub.options);
+  add_overrides(options, sub.options);
+  add_max_memory(options, sub.options);
+  options.add_flag("--strict", sub->strict,
+                   "Reject a scene with a warning that means a wrong reading (exit code 3); exit with 70 if "
+                   "any sample was discarded");
+  options.add_flag("--quiet", sub->quiet, "Print warnings and errors only, no progress and no notes");
+  add_json(options, sub->json);
 }
 
 }  // namespace abbe::cli

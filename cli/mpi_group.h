@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "transport/render/mpi_group.h"
 
 namespace abbe::cli {

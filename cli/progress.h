@@ -63,7 +63,6 @@ class InterruptWatch {
 
   /// True from the first signal on. The reference is valid for the lifetime of the program.
   [[nodiscard]] const std::atomic<bool>& stop() const;
-  /// Number of the first signal; 0 if there was none.
   [[nodiscard]] int signal() const;
 };
 

@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -69,29 +69,15 @@ SurfaceColor color_by_astm(const ColorOptions& options, Diagnostics& diagnostics
   return {astm_tristimulus(weights, *samples), astm_white(weights)};
 }
 
-struct TableKind {
-  const char* name;
-  std::vector<std::string> (*names)();
-};
+constexpr const char* kMaterial = "material";
+constexpr const char* kGlass = "glass";  // too many to list by default
+constexpr std::array kTableKinds{kMaterial, kGlass,   "illuminant", "reflectance",
+                                 "camera",  "filter", "observer"};
 
-template <const char* folder>
-std::vector<std::string> names_in() {
-  return table_names(folder);
+std::vector<std::string> names_of_kind(std::string_view kind) {
+  if (kind == kMaterial) return index_names();
+  return kind == kGlass ? glass_names() : table_names(std::string(kind));
 }
-constexpr char kIlluminant[] = "illuminant";
-constexpr char kReflectance[] = "reflectance";
-constexpr char kCamera[] = "camera";
-constexpr char kFilter[] = "filter";
-constexpr char kObserver[] = "observer";
-constexpr char kMaterial[] = "material";
-constexpr char kGlass[] = "glass";  // too many to list by default
-constexpr std::array<TableKind, 7> kTableKinds{{{kMaterial, index_names},
-                                                {kGlass, glass_names},
-                                                {kIlluminant, names_in<kIlluminant>},
-                                                {kReflectance, names_in<kReflectance>},
-                                                {kCamera, names_in<kCamera>},
-                                                {kFilter, names_in<kFilter>},
-                                                {kObserver, names_in<kObserver>}}};
 
 // Adds the ranges of n and k of each listed material and its source, as lists parallel to the names. The
 // range of k is null if k is not measured.
@@ -120,19 +106,18 @@ std::string index_description(const Json& answer, std::size_t i) {
                      answer["source"][i].get_ref<const std::string&>());
 }
 
-int print_camera_metrics(const std::vector<Channel>& channels, bool json) {
+void print_camera_metrics(const std::vector<Channel>& channels, bool json) {
   const CameraSpace space = camera_space(channels);
   Json answer;
   answer["vora"] = space.vora;
   answer["luther_residual"] = {{"x", space.luther[0]}, {"y", space.luther[1]}, {"z", space.luther[2]}};
   answer["sensitivity_index"] = channels.size() == 3 ? Json(sensitivity_index(channels)) : Json();
   print(answer, json);
-  return 0;
 }
 
 }  // namespace
 
-int query_color(const ColorOptions& options) {
+void query_color(const ColorOptions& options) {
   Diagnostics diagnostics;
   const auto [xyz, white] = options.method == ColorMethod::astm_e308 ? color_by_astm(options, diagnostics)
                                                                      : color_every_nm(options, diagnostics);
@@ -144,10 +129,9 @@ int query_color(const ColorOptions& options) {
   answer["xy"] = chromaticity(xyz);
   answer["Lab"] = xyz_to_lab(xyz, white);
   print(answer, options.json);
-  return 0;
 }
 
-int query_delta_e(const DeltaEOptions& options) {
+void query_delta_e(const DeltaEOptions& options) {
   Json answer;
   answer["dE00"] = delta_e_2000(options.lab1, options.lab2);
   answer["dE76"] = delta_e_76(options.lab1, options.lab2);
@@ -156,10 +140,9 @@ int query_delta_e(const DeltaEOptions& options) {
        {std::pair{"dE_CAM16_UCS", DeltaE::cam16_ucs}, std::pair{"dE_ITP", DeltaE::itp}})
     answer[key] = delta_e(formula, options.lab1, options.lab2);
   print(answer, options.json);
-  return 0;
 }
 
-int query_camera(const CameraOptions& options) {
+void query_camera(const CameraOptions& options) {
   Diagnostics diagnostics;
   if (options.illuminant.empty() && !options.metrics)
     throw Error(ErrorCode::usage, "query camera", "needs --illuminant or --judge");
@@ -172,27 +155,21 @@ int query_camera(const CameraOptions& options) {
   Json answer;
   for (std::size_t i = 0; i < raw.size(); ++i) answer["raw"][(*channels)[i].name] = raw[i];
   print(answer, options.json);
-  return 0;
 }
 
 std::vector<std::string> table_kinds() {
-  std::vector<std::string> kinds;
-  for (const TableKind& kind : kTableKinds) kinds.emplace_back(kind.name);
-  return kinds;
+  return {kTableKinds.begin(), kTableKinds.end()};
 }
 
-int query_list(const ListOptions& options) {
+void query_list(const ListOptions& options) {
   Json answer = Json::object();
-  for (const TableKind& kind : kTableKinds)
-    if (options.kind.empty() || options.kind == kind.name) answer[kind.name] = kind.names();
+  for (const char* kind : kTableKinds)
+    if (options.kind.empty() || options.kind == kind) answer[kind] = names_of_kind(kind);
   if (answer.empty())
     throw Error(ErrorCode::usage, "--list", unknown_name("kind", options.kind, table_kinds()));
   const bool has_index = options.kind == kMaterial || options.kind == kGlass;
   if (has_index) add_index_ranges(answer, options.kind);
-  if (options.json) {
-    print(answer, true);
-    return 0;
-  }
+  if (options.json) return print(answer, true);
   for (const auto& [kind, names] : answer.items()) {
     if (has_index && kind != options.kind) continue;
     if (options.kind.empty()) fmt::print("{}\n", kind);
@@ -204,7 +181,6 @@ int query_list(const ListOptions& options) {
       fmt::print("{}{}{}\n", options.kind.empty() ? "  " : "", names[i].get_ref<const std::string&>(),
                  has_index ? index_description(answer, i) : "");
   }
-  return 0;
 }
 
 }  // namespace abbe::cli

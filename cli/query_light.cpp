@@ -127,7 +127,7 @@ void add_fidelity(Json& answer, const ColorFidelity& fidelity, bool with_samples
 
 }  // namespace
 
-int query_light(const LightOptions& options) {
+void query_light(const LightOptions& options) {
   if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   require_distinct(options.plot.empty() ? std::vector<std::filesystem::path>{} : std::vector{options.plot},
                    files_among({options.name, options.filters, options.reflectance}));
@@ -160,10 +160,9 @@ int query_light(const LightOptions& options) {
     write_atomically(options.plot, color_vector_graphic(*fidelity, options.name));
   }
   print(answer, options.json);
-  return 0;
 }
 
-int query_metamerism(const MetamerismOptions& options) {
+void query_metamerism(const MetamerismOptions& options) {
   Diagnostics diagnostics;
   const Curve first = curve_for(kReflectanceUse, options.first, diagnostics);
   const Curve second = curve_for(kReflectanceUse, options.second, diagnostics);
@@ -178,7 +177,6 @@ int query_metamerism(const MetamerismOptions& options) {
   answer["dE76"] = result.index_76;
   answer["dE00"] = result.index_2000;
   print(answer, options.json);
-  return 0;
 }
 
 }  // namespace abbe::cli

@@ -40,14 +40,8 @@ Json per_wavelength(const std::vector<double>& at_nm, F value) {
 }
 
 template <typename Options>
-int print_material_answer(const Json& answer, const Options& options) {
+void print_material_answer(const Json& answer, const Options& options) {
   print(options.arrays ? answer : without_lists_of_one(answer), options.json);
-  return 0;
-}
-
-// Medium to which the catalogued index of a material is relative.
-const char* medium_of(const NamedIndex& material) {
-  return material.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
 }
 
 // Medium that surrounds every surface in the answers, as in scenes.
@@ -65,16 +59,13 @@ Json angles(const NamedIndex& material, const IndexOptions& options, F angle) {
   return answer;
 }
 
-// R_p of light from outside at an angle of incidence in degrees.
-long double reflected_p(double n, double k, long double degrees) {
-  const long double cos_i = std::cos(degrees * static_cast<long double>(kDegree));
-  return fresnel_conductor<long double>(cos_i, n, k).Rp;
-}
-
 // Angle in degrees of minimum R_p, by a golden-section search between the neighbours of the best whole
 // degree.
 double min_p_angle_deg(double n, double k) {
-  const auto reflected = [n, k](long double degrees) { return reflected_p(n, k, degrees); };
+  const auto reflected = [n, k](long double degrees) {
+    const long double cos_i = std::cos(degrees * static_cast<long double>(kDegree));
+    return fresnel_conductor<long double>(cos_i, n, k).Rp;
+  };
   long double low = 0;
   for (int degrees = 1; degrees < 90; ++degrees)
     if (reflected(degrees) < reflected(low)) low = degrees;
@@ -132,12 +123,12 @@ double phase_deg(const Complex<double>& amplitude) {
 
 }  // namespace
 
-int query_ior(const IndexOptions& options) {
+void query_ior(const IndexOptions& options) {
   const NamedIndex material = find_material(options.name, options.at_nm);
   Json answer;
   answer["name"] = material.name;
   answer["source"] = material.source;
-  answer["medium"] = medium_of(material);
+  answer["medium"] = material.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
   answer["wavelength_nm"] = options.at_nm;
   answer["n"] = per_wavelength(options.at_nm, [&](double nm) { return material.index.catalogued_n(nm); });
   const auto if_k_measured = [&](auto quantity) {
@@ -150,10 +141,10 @@ int query_ior(const IndexOptions& options) {
     answer["internal_transmittance"] = if_k_measured([&](double nm) {
       return std::exp(-material.index.absorption_per_m(nm) * *options.thickness_mm * 1e-3);
     });
-  return print_material_answer(answer, options);
+  print_material_answer(answer, options);
 }
 
-int query_critical(const IndexOptions& options) {
+void query_critical(const IndexOptions& options) {
   // The intensity falls to 1/e within one wavelength in vacuum at 4 pi k = 1. Above, no wave propagates
   // inside that could be totally reflected.
   constexpr double kMaxAttenuation = 1;
@@ -161,10 +152,10 @@ int query_critical(const IndexOptions& options) {
     const bool is_wave = 4 * std::numbers::pi * k < kMaxAttenuation;
     return n > 1 && is_wave ? Json(std::asin(1 / n) / kDegree) : Json();
   };
-  return print_material_answer(angles(find_surface(options.name, options.at_nm), options, critical), options);
+  print_material_answer(angles(find_surface(options.name, options.at_nm), options, critical), options);
 }
 
-int query_brewster(const IndexOptions& options) {
+void query_brewster(const IndexOptions& options) {
   // Reflectance that counts as zero, since the small k of glass causes it.
   constexpr double kNegligible = 1e-9;
   const NamedIndex material = find_surface(options.name, options.at_nm);
@@ -178,10 +169,10 @@ int query_brewster(const IndexOptions& options) {
     answer["kind"].push_back(min_rp < kNegligible ? "Brewster" : "pseudo-Brewster");
     answer["Rp"].push_back(min_rp);
   }
-  return print_material_answer(answer, options);
+  print_material_answer(answer, options);
 }
 
-int query_reflectance(const ReflectanceOptions& options) {
+void query_reflectance(const ReflectanceOptions& options) {
   const NamedIndex material = find_surface(options.name, options.at_nm);
   const Coating coating = parse_coating(options.coating, options.at_nm);
   const auto rows = [&](auto quantity) {
@@ -203,10 +194,10 @@ int query_reflectance(const ReflectanceOptions& options) {
   if (!coating.layers.empty()) answer["T"] = rows([](const auto& f) { return f.power.transmitted(); });
   answer["phase_s_deg"] = rows([](const auto& f) { return phase_deg(f.amplitudes.s); });
   answer["phase_p_deg"] = rows([](const auto& f) { return phase_deg(f.amplitudes.p); });
-  return print_material_answer(answer, options);
+  print_material_answer(answer, options);
 }
 
-int query_prism(const PrismOptions& options) {
+void query_prism(const PrismOptions& options) {
   const NamedIndex material = find_surface(options.name, options.at_nm);
   const auto column = [&](auto quantity) {
     return per_wavelength(options.at_nm, [&](double nm) {
@@ -227,7 +218,7 @@ int query_prism(const PrismOptions& options) {
   answer["incidence_deg"] = column([](const PrismPassage& p) { return p.incidence_deg; });
   answer["Ts"] = column([](const PrismPassage& p) { return p.Ts; });
   answer["Tp"] = column([](const PrismPassage& p) { return p.Tp; });
-  return print_material_answer(answer, options);
+  print_material_answer(answer, options);
 }
 
 }  // namespace abbe::cli

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/lens.h"
 #include "cli/rays.h"
 
 namespace abbe::cli {
@@ -36,19 +35,15 @@ StokesVector parse_stokes(const std::string& option, const std::string& text) {
 void add_trace(CLI::App& app, Command& command) {
   const Subcommand<TraceOptions> sub(app, "trace", "Trace one ray through a scene in double precision",
                                      command, trace);
-  sub.app->add_option("scene", sub->scene, "Scene file, or - for standard input")
-      ->required()
-      ->type_name("SCENE");
+  add_scene(*sub.app, sub->scene);
   add_parsed(*sub.app, "--lambda", sub->wavelength_nm, number_in(kMinWavelengthNm, kMaxWavelengthNm),
              "Wavelength in standard air in nm", "NM")
       ->required();
   CLI::Option* origin = add_parsed(*sub.app, "--origin", sub->origin, parse_vector,
                                    "Origin of the ray, in the units of the scene", "X,Y,Z");
   add_parsed(*sub.app, "--dir", sub->direction, parse_vector, "Direction of the ray, of any length", "X,Y,Z");
-  sub.app
-      ->add_option("--from-light", sub->light,
-                   "Start at this light along its central ray, or in the direction of --dir")
-      ->type_name("NAME")
+  add_value(*sub.app, "--from-light", sub->light,
+            "Start at this light along its central ray, or in the direction of --dir", "NAME")
       ->excludes(origin);
   add_parsed(*sub.app, "--max-events", sub->max_events, integer_in<int>(1, 1000000),
              "Maximum number of events (default 64)", "N");
@@ -64,10 +59,8 @@ void add_trace(CLI::App& app, Command& command) {
 void add_draw(CLI::App& app, Command& command) {
   const Subcommand<DrawOptions> sub(app, "draw", "Draw the plan and elevation of a scene with rays", command,
                                     draw);
-  sub.app->add_option("scene", sub->scene, "Scene file, or - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  sub.app->add_option("-o,--output", sub->output, "Drawing to write")->required()->type_name("FILE.svg");
+  add_scene(*sub.app, sub->scene);
+  add_value(*sub.app, "-o,--output", sub->output, "Drawing to write", "FILE.svg")->required();
   add_parsed(*sub.app, "--lambda", sub->wavelengths_nm, numbers_in(kMinWavelengthNm, kMaxWavelengthNm),
              "Wavelengths of the rays in nm (default 450,550,650)", "NM,...");
   CLI::Option* rays =
@@ -85,27 +78,6 @@ void add_draw(CLI::App& app, Command& command) {
   add_follow(*sub.app, sub->follow);
   add_overrides(*sub.app, sub.options);
   add_max_memory(*sub.app, sub.options);
-}
-
-void add_lens(CLI::App& app, Command& command) {
-  const Subcommand<LensOptions> sub(
-      app, "lens", "Report the first-order properties, aberrations, spots and losses of a lens", command,
-      lens);
-  sub.app
-      ->add_option("lens", sub->lens,
-                   "Prescription (.json), lens of Zemax (.zmx), table of pbrt (.dat), or a name in data/lens")
-      ->required()
-      ->type_name("FILE.json|FILE.zmx|FILE.dat");
-  add_parsed(*sub.app, "--lambda", sub->wavelengths_nm, numbers_in(kMinWavelengthNm, kMaxWavelengthNm),
-             "Wavelengths in nm that replace those of the lens; the primary one is at the centre of the "
-             "list, and stop and focus stay as set at the lens's own",
-             "NM,...");
-  add_parsed(*sub.app, "--frequencies", sub->frequencies_per_mm, numbers_in(1e-3, 1e4),
-             "Spatial frequencies of the modulation transfer function in cycles per mm (default 10,20,40)",
-             "N,...");
-  sub.app->add_option("--html", sub->html, "HTML page to write")->type_name("FILE.html");
-  sub.app->add_option("-o,--output", sub->drawing, "Drawing of the lens to write")->type_name("FILE.svg");
-  add_json(*sub.app, sub->json);
 }
 
 }  // namespace abbe::cli

@@ -8,7 +8,6 @@
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
-#include "description/load.h"
 #include "io/atomic_file.h"
 #include "io/text.h"
 #include "report/layout.h"
@@ -21,21 +20,8 @@ Json list(const Imath::V3d& v) {
   return {v.x, v.y, v.z};
 }
 
-const char* name(TraceEvent::Kind kind) {
-  switch (kind) {
-    case TraceEvent::Kind::refract:
-      return "refract";
-    case TraceEvent::Kind::reflect:
-      return "reflect";
-    case TraceEvent::Kind::total_reflection:
-      return "total_reflection";
-    case TraceEvent::Kind::hit:
-      return "hit";
-    case TraceEvent::Kind::escape:
-      break;
-  }
-  return "escape";
-}
+// Names in the order of `TraceEvent::Kind`.
+constexpr std::array kEventNames{"refract", "reflect", "total_reflection", "hit", "escape"};
 
 // A point of the scene [m] in the coordinates and units of its file.
 Json file_point(const Scene& scene, const Imath::V3d& point) {
@@ -48,19 +34,17 @@ Json matrix(const FullMueller& mueller) {
   return rows;
 }
 
-void add_polarisation(const EventPolarisation& polarisation, Json& answer) {
-  answer["axis"] = list(polarisation.axis);
-  answer["mueller"] = matrix(polarisation.mueller);
-  answer["stokes"] = polarisation.stokes;
-}
-
 Json event_answer(const Scene& scene, const TraceEvent& event) {
-  Json answer{{"kind", name(event.kind)}};
+  Json answer{{"kind", kEventNames.at(static_cast<std::size_t>(event.kind))}};
   if (event.kind == TraceEvent::Kind::escape) return answer;
   answer["point"] = file_point(scene, event.at.point);
   answer["normal"] = list(event.at.normal);
   answer["shape"] = scene.shapes[event.shape].name;
-  if (event.polarisation) add_polarisation(*event.polarisation, answer);
+  if (const auto& polarisation = event.polarisation) {
+    answer["axis"] = list(polarisation->axis);
+    answer["mueller"] = matrix(polarisation->mueller);
+    answer["stokes"] = polarisation->stokes;
+  }
   if (!event.passage) return answer;
   const Passage& passage = *event.passage;
   answer["n_from"] = passage.n_from;
@@ -209,7 +193,7 @@ std::optional<std::string> extrapolated_index_warning(const Material& material, 
   return std::nullopt;
 }
 
-int trace(const TraceOptions& options) {
+void trace(const TraceOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
   const Scene scene =
@@ -224,10 +208,9 @@ int trace(const TraceOptions& options) {
     print_readable(answer);
   warn(first_extrapolation(scene, tree, options.wavelength_nm));
   warn_cut(tree, options, limits);
-  return 0;
 }
 
-int draw(const DrawOptions& options) {
+void draw(const DrawOptions& options) {
   require_extension(options.output, {".svg"});
   require_writable(options.output);
   if (options.origin && !(options.direction.length() > 0))
@@ -249,7 +232,6 @@ int draw(const DrawOptions& options) {
   const std::string name = options.scene == kStandardStream ? "stdin" : options.scene.filename().string();
   write_atomically(options.output, layout_drawing(scene, drawn, name));
   warn(warning);
-  return 0;
 }
 
 }  // namespace abbe::cli

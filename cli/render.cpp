@@ -3,19 +3,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
-#include <optional>
-#include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "calibration/output/display.h"
 #include "cli/answer.h"
 #include "cli/mpi_group.h"
 #include "cli/output_files.h"
@@ -221,29 +216,23 @@ Outputs choose_outputs(const RenderOptions& options, const Scene& scene, const I
 
 void check_ranges(const RenderOptions& options, const Scene& scene) {
   const Camera& camera = scene.camera;
-  if (options.crop && (options.crop->x1 > camera.width || options.crop->y1 > camera.height))
+  const std::optional<Crop>& crop = options.render.crop;
+  if (crop && (crop->x1 > camera.width || crop->y1 > camera.height))
     throw Error(ErrorCode::usage, "--crop",
-                fmt::format("extends outside the film (got {},{}, allowed up to {},{})", options.crop->x1,
-                            options.crop->y1, camera.width, camera.height));
-  if (options.sample_range && options.sample_range->last > static_cast<std::uint64_t>(scene.render.samples))
+                fmt::format("extends outside the film (got {},{}, allowed up to {},{})", crop->x1, crop->y1,
+                            camera.width, camera.height));
+  const std::optional<SampleRange>& range = options.render.samples;
+  if (range && range->last > static_cast<std::uint64_t>(scene.render.samples))
     throw Error(ErrorCode::usage, "--sample-range",
-                fmt::format("exceeds the samples of the whole render (got {}, allowed up to {})",
-                            options.sample_range->last, scene.render.samples));
+                fmt::format("exceeds the samples of the whole render (got {}, allowed up to {})", range->last,
+                            scene.render.samples));
 }
 
 abbe::RenderOptions make_render_options(const RenderOptions& options, const Scene& scene) {
-  abbe::RenderOptions render_options;
-  render_options.threads = options.threads;
-  render_options.time_limit_s = options.time_limit_s;
-  render_options.target_error = options.target_error;
-  render_options.crop = options.crop;
-  if (const std::optional<LayerChoice>& layers = options.layers) {
+  abbe::RenderOptions render_options = options.render;
+  if (const std::optional<LayerChoice>& layers = options.layers)
     render_options.layers =
         layers->bounces ? bounce_layers(*layers->bounces) : light_layers(scene, layers->lights);
-  }
-  render_options.features = options.features;
-  render_options.samples = options.sample_range;
-  render_options.checkpoint_interval_s = options.checkpoint_interval_s;
   render_options.measure_error = !options.stats.empty();
   return render_options;
 }
@@ -394,7 +383,7 @@ void open_viewers(LiveViewers& viewers, const Scene& scene, const RenderOptions&
   const std::size_t pixels =
       static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height);
   const std::size_t bytes = 2 * sizeof(float) * pixels * scene.film_planes().size();
-  const int threads = thread_count(options.threads);
+  const int threads = thread_count(options.render.threads);
   const auto identity = [&] {
     return identity_of(scene, name_of(options.scene), make_render_options(options, scene));
   };
@@ -408,14 +397,6 @@ void open_viewers(LiveViewers& viewers, const Scene& scene, const RenderOptions&
     viewers.tev.emplace(scene, identity(), *options.tev, threads,
                         [](const std::string& warning) { warn(warning); });
   }
-}
-
-// Writes the statistics to a file, or to standard output without a path.
-void write_stats(const fs::path& path, const std::string& stats) {
-  if (path.empty())
-    fmt::print("{}", stats);
-  else
-    write_atomically(path, stats);
 }
 
 /// Settings of pictures: the display, and the film value shown as white. Without a value it is chosen from
@@ -479,8 +460,13 @@ void write_results(const RenderOptions& options, const Outputs& outputs,
   writers.emplace_back(metered(costs.write, [&] { write_film(outputs.film, part); }));
   if (picture_settings) writers.emplace_back(metered(costs.display, write_display));
   if (!options.stats.empty())
-    writers.emplace_back(
-        [&] { write_stats(outputs.stats, stats_text(scene, part.result, costs, display_white)); });
+    writers.emplace_back([&] {
+      const std::string stats = stats_text(scene, part.result, costs, display_white);
+      if (outputs.stats.empty())
+        fmt::print("{}", stats);
+      else
+        write_atomically(outputs.stats, stats);
+    });
   write_all(writers);
 }
 
@@ -491,7 +477,7 @@ void report_results(const RenderOptions& options, const fs::path& film, const Sc
     print_message(fmt::format("{} after {} samples per pixel in {:.3g} s{}", film.string(),
                               stats.samples_per_pixel, plan.wall_s + stats.wall_s,
                               error_text(stats.error, ", ")));
-  if (options.target_error && !options.time_limit_s && !stats.interrupted &&
+  if (options.render.target_error && !options.render.time_limit_s && !stats.interrupted &&
       !std::isfinite(stats.error.median))
     print_message("warning: a pilot found no light on the film: --error has no effect");
   for (const std::string& warning : render_warnings(scene, result)) warn(warning);
@@ -524,7 +510,7 @@ int render(const RenderOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   const RootOnlyOutput root_only(mpi_group());
   Scene scene = load_in_all_processes(options, inputs, mpi_group());
-  const int threads = thread_count(options.threads);
+  const int threads = thread_count(options.render.threads);
   if (mpi_group().rank != 0) {
     const IntegratorChoice choice = choose_integrator(scene, threads);
     scene.render.integrator = choice.integrator;

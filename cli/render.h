@@ -14,23 +14,19 @@
 
 namespace abbe::cli {
 
-/// Options that control how light is sampled. Values that are absent are those of the scene.
+/// Options of `render` and `meter`, which their help explains. Values that are absent are those of the scene.
 struct SamplingOptions {
-  std::optional<int> samples;  ///< Samples per pixel, or per sub-area of a meter.
-  /// Relative error at which rendering stops, in (0, 1). It is the median over pixels of a film, or the
-  /// largest error of a meter's values.
-  std::optional<double> target_error;
-  std::optional<double> time_limit_s;  ///< Time after which rendering stops.
+  std::optional<int> samples;
+  abbe::RenderOptions render;  ///< Without layers, callbacks and guiding data.
   std::optional<Integrator> integrator;
-  bool consistent = false;  ///< Allow `auto` to use photon merging, as the scene may do too.
+  bool consistent = false;
   std::optional<std::uint64_t> seed;
-  int threads = 0;  ///< Number of threads; 0 for one per processor.
   std::size_t max_memory_bytes = default_memory_limit();
-  std::vector<Override> overrides;  ///< Values of the scene file that are replaced.
+  std::vector<Override> overrides;
   /// Treat problems that invalidate the result as errors. Problems of the scene end the command before it
   /// renders (exit code 3). Samples that are not finite end it after the results are written (exit code 70).
   bool strict = false;
-  bool quiet = false;  ///< Print warnings and errors only.
+  bool quiet = false;
 };
 
 /// Replaces samples, integrator and seed of the settings by those of the options that have a value. The
@@ -48,27 +44,19 @@ struct LayerChoice {
 
 /// Options of `abbe render`. Values that are absent are those of the scene.
 struct RenderOptions : SamplingOptions {
-  std::filesystem::path scene;  ///< Scene file; "-" is standard input.
-  /// Film `.exr` or partial film `.abbepart`; if empty that of the scene, else SCENE.exr.
+  std::filesystem::path scene;
   std::filesystem::path output;
-  std::filesystem::path display;      ///< Picture for a display; if empty that of the scene, if any.
-  ViewOptions view;                   ///< View of the display; the configuration defaults to that of $OCIO.
-  std::filesystem::path exposure_of;  ///< Film whose display exposure the pictures use; empty for their own.
-  /// Picture of the pixels that the display cannot show exactly; empty for none.
+  std::filesystem::path display;
+  ViewOptions view;  ///< The configuration defaults to that of $OCIO.
+  std::filesystem::path exposure_of;
   std::filesystem::path gamut;
-  std::filesystem::path stats;  ///< JSON of the statistics; "-" is standard output, empty for none.
-  std::optional<SampleRange> sample_range;  ///< Samples of every pixel to render; all without a value.
-  /// File `.abbepart` in which finished samples are saved; empty for none.
+  std::filesystem::path stats;  ///< "-" is standard output.
   std::filesystem::path checkpoint;
-  double checkpoint_interval_s = 60;  ///< Minimum time between checkpoints.
-  bool resume = false;                ///< Continue from the checkpoint if it exists.
-  std::optional<Crop> crop;           ///< Pixels to render; the whole film without a value.
-  /// Layers to record in addition to the film; none without a value.
+  bool resume = false;
   std::optional<LayerChoice> layers;
-  std::vector<Feature> features;         ///< Features of the first hits that become channels of the film.
-  std::optional<ServerAddress> preview;  ///< Address of a web page that shows the render; none by default.
-  std::optional<ServerAddress> tev;      ///< Address of a viewer that receives the render; none by default.
-  bool explain = false;                  ///< Print the report of `describe` to stderr first.
+  std::optional<ServerAddress> preview;
+  std::optional<ServerAddress> tev;
+  bool explain = false;
 };
 
 /// Renders a scene file to films and pictures. Under mpirun all processes render one film, which the root

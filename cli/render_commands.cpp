@@ -5,44 +5,25 @@
 
 #include <fmt/format.h>
 
-#include "cli/meter.h"
 #include "cli/render.h"
 
 namespace abbe::cli {
-namespace {
 
-/// Options that end a render by its error or time.
-struct StopOptions {
-  CLI::Option* error;
-  CLI::Option* time;
-};
-
-// Adds --spp with the help `spp_help`, and --error and --time, which end the render instead. `error_name`
-// names the error, `time_scope` the object of the time.
-StopOptions add_samples(CLI::App& app, SamplingOptions& settings, const std::string& spp_help,
-                        const std::string& error_name, const std::string& time_scope) {
+void add_samples(CLI::App& app, SamplingOptions& settings, const std::string& spp_help,
+                 const std::string& error_name, const std::string& time_scope) {
   CLI::Option* spp =
       add_parsed(app, "--spp", settings.samples, integer_in<int>(1, kMaxSamples), spp_help, "N");
   CLI::Option* error =
-      add_parsed(app, "--error", settings.target_error, parse_fraction,
+      add_parsed(app, "--error", settings.render.target_error, parse_fraction,
                  "Stop when " + error_name + " is at most this fraction, such as 0.5% or 0.005", "FRACTION");
   CLI::Option* time = add_parsed(
-      app, "--time", settings.time_limit_s, parse_seconds,
+      app, "--time", settings.render.time_limit_s, parse_seconds,
       "Stop after this time" + time_scope +
           ", in s or with a unit, such as 60s, 2m or 1h; with --error, when the first of both is reached",
       "TIME");
   spp->excludes(error)->excludes(time);
-  return {error, time};
 }
 
-void add_range(CLI::App& render, RenderOptions& settings, const StopOptions& stop_options) {
-  CLI::Option* range =
-      add_parsed(render, "--sample-range", settings.sample_range, parse_sample_range,
-                 "Render only the samples A to B - 1 of every pixel, for parts of one render", "A:B");
-  range->excludes(stop_options.error)->excludes(stop_options.time);
-}
-
-// Adds the options for the integrator, the seed and the threads.
 void add_integrator(CLI::App& app, SamplingOptions& settings) {
   add_parsed(app, "--integrator", settings.integrator,
              one_of<Integrator>({kIntegratorNames.begin(), kIntegratorNames.end()}),
@@ -52,20 +33,22 @@ void add_integrator(CLI::App& app, SamplingOptions& settings) {
                "integrator can sample");
   add_parsed(app, "--seed", settings.seed, integer_in<std::uint64_t>(0, kMaxSeed),
              "Seed of the random numbers (default: the scene's)", "N");
-  add_parsed(app, "--threads", settings.threads, integer_in<int>(0, kMaxThreads),
+  add_parsed(app, "--threads", settings.render.threads, integer_in<int>(0, kMaxThreads),
              "Number of threads; 0 for one per processor (default 0)", "N");
 }
 
+namespace {
+
 // Adds the options for the crop, the layers and the auxiliary channels of the film.
 void add_film(CLI::App& render, RenderOptions& settings) {
-  add_parsed(render, "--crop", settings.crop, parse_crop,
+  add_parsed(render, "--crop", settings.render.crop, parse_crop,
              "Pixels of the film to render, X0 <= x < X1 and Y0 <= y < Y1 (default: all)", "X0,Y0,X1,Y1");
   add_parsed(render, "--layers", settings.layers, parse_layer_choice,
              "Also record layers, channels that add up to the film: by light (lights, or lights:NAME,... for "
              "some lights) or by path length (bounces, or bounces:N with N or more bounces in the last "
              "layer, 1 to 64, default 8)",
              "lights|bounces");
-  add_parsed(render, "--aov", settings.features, parse_feature_list,
+  add_parsed(render, "--aov", settings.render.features, parse_feature_list,
              "Also record features of the first surface in each pixel, any of depth (channel depth.Z), "
              "position (P), normal (N), shading-normal (Ns), albedo (Albedo) and id (Id), with the fraction "
              "of samples that hit a surface (Coverage)",
@@ -73,41 +56,31 @@ void add_film(CLI::App& render, RenderOptions& settings) {
 }
 
 void add_checkpoints(CLI::App& render, RenderOptions& settings) {
-  CLI::Option* checkpoint = render
-                                .add_option("--checkpoint", settings.checkpoint,
-                                            "File in which the finished samples are saved during the render")
-                                ->type_name("FILE.abbepart");
-  add_parsed(render, "--checkpoint-every", settings.checkpoint_interval_s, parse_seconds,
+  add_value(render, "--checkpoint", settings.checkpoint,
+            "File in which the finished samples are saved during the render", "FILE.abbepart");
+  add_parsed(render, "--checkpoint-every", settings.render.checkpoint_interval_s, parse_seconds,
              "Time between checkpoints, in s or with a unit, such as 60s, 2m or 1h; longer if writing would "
              "take more than 1 % of the time (default 60s)",
              "TIME")
-      ->needs(checkpoint);
+      ->needs("--checkpoint");
   render.add_flag("--resume", settings.resume, "Continue from the checkpoint if it exists")
-      ->needs(checkpoint);
+      ->needs("--checkpoint");
 }
 
 void add_pictures(CLI::App& render, RenderOptions& settings) {
-  render.add_option("--display", settings.display, "Also write a picture for a display")
-      ->type_name("FILE.png");
-  render
-      .add_option("--screen", settings.view.display,
-                  "Display of the OpenColorIO configuration (default: its first)")
-      ->type_name("NAME");
-  render.add_option("--view", settings.view.view, "View of that display (default: its first)")
-      ->type_name("NAME");
-  render
-      .add_option("--ocio", settings.view.config,
-                  "OpenColorIO configuration of the picture (default: $OCIO, otherwise Abbe's own)")
-      ->type_name("FILE.ocio");
-  render
-      .add_option("--exposure-of", settings.exposure_of,
-                  "Film of the same sensor whose display exposure the picture uses, such as the first of "
-                  "several frames")
-      ->type_name("FILE.exr");
-  render
-      .add_option("--gamut", settings.gamut,
-                  "Also write a picture that shows in white the pixels outside the gamut of the display")
-      ->type_name("FILE.png");
+  add_value(render, "--display", settings.display, "Also write a picture for a display", "FILE.png");
+  add_value(render, "--screen", settings.view.display,
+            "Display of the OpenColorIO configuration (default: its first)", "NAME");
+  add_value(render, "--view", settings.view.view, "View of that display (default: its first)", "NAME");
+  add_value(render, "--ocio", settings.view.config,
+            "OpenColorIO configuration of the picture (default: $OCIO, otherwise Abbe's own)", "FILE.ocio");
+  add_value(render, "--exposure-of", settings.exposure_of,
+            "Film of the same sensor whose display exposure the picture uses, such as the first of "
+            "several frames",
+            "FILE.exr");
+  add_value(render, "--gamut", settings.gamut,
+            "Also write a picture that shows in white the pixels outside the gamut of the display",
+            "FILE.png");
 }
 
 void add_live_viewers(CLI::App& render, RenderOptions& settings) {
@@ -126,25 +99,24 @@ void add_live_viewers(CLI::App& render, RenderOptions& settings) {
 void add_render(CLI::App& app, Command& command) {
   const Subcommand<RenderOptions> sub(app, "render", "Render a scene", command, render);
   CLI::App& render = *sub.app;
-  render.add_option("scene", sub->scene, "Scene file, or - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  render
-      .add_option("-o,--output", sub->output,
-                  "Film (.exr) or partial film with exact sums (.abbepart) to write (default: that of the "
-                  "scene, otherwise SCENE.exr)")
-      ->type_name("FILE.exr|FILE.abbepart");
-  const StopOptions stop_options =
-      add_samples(render, *sub.options, "Samples per pixel (default: the scene's)",
-                  "the median relative error of illuminated pixel values", "");
-  add_range(render, *sub.options, stop_options);
+  add_scene(render, sub->scene);
+  add_value(render, "-o,--output", sub->output,
+            "Film (.exr) or partial film with exact sums (.abbepart) to write (default: that of the "
+            "scene, otherwise SCENE.exr)",
+            "FILE.exr|FILE.abbepart");
+  add_samples(render, *sub.options, "Samples per pixel (default: the scene's)",
+              "the median relative error of illuminated pixel values", "");
+  add_parsed(render, "--sample-range", sub->render.samples, parse_sample_range,
+             "Render only the samples A to B - 1 of every pixel, for parts of one render", "A:B")
+      ->excludes("--error")
+      ->excludes("--time");
   add_integrator(render, *sub.options);
   add_film(render, *sub.options);
   add_overrides(render, sub.options);
   add_checkpoints(render, *sub.options);
   add_pictures(render, *sub.options);
-  render.add_option("--stats", sub->stats, "Write statistics of the render as JSON; - for standard output")
-      ->type_name("FILE.json");
+  add_value(render, "--stats", sub->stats, "Write statistics of the render as JSON; - for standard output",
+            "FILE.json");
   add_live_viewers(render, *sub.options);
   add_max_memory(render, sub.options);
   render.add_flag("--explain", sub->explain, "First print which features the scene needs, and why");
@@ -155,34 +127,6 @@ void add_render(CLI::App& app, Command& command) {
       "sheet or a light that coincides with a surface, or light paths that the chosen integrator cannot "
       "sample (with auto these remain a warning); exit with 70 if any sample was discarded");
   render.add_flag("--quiet", sub->quiet, "Print warnings and errors only, no progress and no notes");
-}
-
-void add_meter(CLI::App& app, Command& command) {
-  const Subcommand<MeterOptions> sub(app, "meter", "Measure light with the meters of a scene", command,
-                                     meter);
-  CLI::App& options = *sub.app;
-  options.add_option("scene", sub->scene, "Scene file, or - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  options.add_option("--only", sub->meters, "Name of a meter to read; may be repeated (default: all)")
-      ->allow_extra_args(false)
-      ->type_name("NAME");
-  options
-      .add_option("--spectra", sub->spectra,
-                  "Table to write with the spectra of those meters that record one")
-      ->type_name("FILE.csv");
-  (void)add_samples(options, *sub.options,
-                    "Samples per sub-area of a meter, which has at least 1024 of them (default: the scene's)",
-                    "the largest relative standard error of a meter's radiant, luminous and photon values",
-                    " for each meter");
-  add_integrator(options, *sub.options);
-  add_overrides(options, sub.options);
-  add_max_memory(options, sub.options);
-  options.add_flag("--strict", sub->strict,
-                   "Reject a scene with a warning that means a wrong reading (exit code 3); exit with 70 if "
-                   "any sample was discarded");
-  options.add_flag("--quiet", sub->quiet, "Print warnings and errors only, no progress and no notes");
-  add_json(options, sub->json);
 }
 
 }  // namespace abbe::cli

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "cli/command_options.h"
 #include "cli/output_files.h"
 #include "description/load.h"
 #include "importers/importers.h"
@@ -31,6 +32,23 @@
 
 namespace abbe::cli {
 namespace {
+
+namespace fs = std::filesystem;
+
+struct InfoOptions {
+  fs::path scene;
+  std::vector<Override> overrides;
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
+};
+
+struct ConvertOptions {
+  fs::path scene;
+  fs::path output = kStandardStream;
+  std::optional<fs::path> materials;
+  std::vector<Override> overrides;
+  std::size_t max_memory_bytes = default_memory_limit();
+};
 
 // Channel names of a mosaic, rows from the top.
 std::string pattern(const Scene& scene) {
@@ -159,8 +177,6 @@ std::string lens_line(const Json& lens) {
                             number("airy_radius_um"), number("wavelength_nm"));
 }
 
-namespace fs = std::filesystem;
-
 // True if a scene in this folder names the file by a path relative to the folder.
 bool is_inside_folder(const fs::path& file, const fs::path& folder) {
   return file.is_relative() ||
@@ -180,13 +196,6 @@ void require_same_folder(const ConvertOptions& options, const Inputs& inputs) {
                   fmt::format("is in another folder than the scene, which names the file {} (allowed: the "
                               "folder {} or standard output)",
                               file.string(), real(folder).string()));
-}
-
-void write_out(const std::string& text, const ConvertOptions& options) {
-  if (options.output == kStandardStream)
-    fmt::print("{}", text);
-  else
-    write_atomically(options.output, text);
 }
 
 // Converts a scene of another renderer. File names become relative to the folder of the output.
@@ -256,7 +265,9 @@ void note_polarisation(const Scene& scene) {
       scene.features.reasons.at("polarisation_matters")));
 }
 
-int info(const InfoOptions& options) {
+namespace {
+
+void info(const InfoOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
   Scene scene = accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
@@ -275,10 +286,9 @@ int info(const InfoOptions& options) {
   warn(coincidence_warning(scene));
   warn(unused_settings_warning(scene));
   note_polarisation(scene);
-  return 0;
 }
 
-int convert(const ConvertOptions& options) {
+void convert(const ConvertOptions& options) {
   const bool is_file = options.output != kStandardStream;
   if (is_file) {
     require_extension(options.output, {".json"});
@@ -289,8 +299,44 @@ int convert(const ConvertOptions& options) {
   const std::string text = is_imported ? converted(options, inputs) : canonical(options, inputs);
   if (is_file) require_distinct(std::array{options.output}, inputs.files());
   if (is_file && !is_imported) require_same_folder(options, inputs);
-  write_out(text, options);
-  return 0;
+  if (is_file)
+    write_atomically(options.output, text);
+  else
+    fmt::print("{}", text);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Command& command) {
+  const Subcommand<InfoOptions> sub(
+      app, "info",
+      "Report what a scene contains, which features its render needs, and which integrator it uses", command,
+      info);
+  add_scene(*sub.app, sub->scene);
+  add_overrides(*sub.app, sub.options);
+  add_max_memory(*sub.app, sub.options);
+  add_json(*sub.app, sub->json);
+}
+
+void add_convert(CLI::App& app, Command& command) {
+  const Subcommand<ConvertOptions> sub(
+      app, "convert",
+      "Write a scene file in canonical form, without comments and default values, or convert a scene of pbrt "
+      "(.pbrt), Mitsuba (.xml) or glTF (.gltf, .glb) to a scene file",
+      command, convert);
+  add_value(*sub.app, "scene", sub->scene,
+            "Scene file of Abbe or of another renderer, or - for standard input", "SCENE")
+      ->required();
+  add_value(*sub.app, "-o,--output", sub->output,
+            "File to write, in the folder of the scene if the scene names files (default: - for "
+            "standard output)",
+            "FILE.json");
+  add_value(*sub.app, "--materials", sub->materials,
+            "Materials that replace those of another renderer's scene, by name: {NAME: MATERIAL, ...} "
+            "as in scene files",
+            "FILE.json");
+  add_overrides(*sub.app, sub.options);
+  add_max_memory(*sub.app, sub.options);
 }
 
 }  // namespace abbe::cli

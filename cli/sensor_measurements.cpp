@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,8 +13,8 @@
 #include "calibration/chart/raw_scale.h"
 #include "calibration/chart/transfer_frames.h"
 #include "calibration/metrics/slanted_edge.h"
-#include "cli/answer.h"
 #include "cli/arguments.h"
+#include "cli/command_options.h"
 #include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
@@ -61,7 +60,7 @@ std::string mtf_plot(const Json& answer) {
   return svg(LinePlot{"Modulation transfer", "cycles per pixel", "modulation", {curve}});
 }
 
-Json read_answer(const std::filesystem::path& path, const AnswerPlot& plot, Inputs& inputs) {
+Json read_answer(const std::filesystem::path& path, std::string (*plot)(const Json&), Inputs& inputs) {
   inputs.add_file(path);
   Diagnostics diagnostics;
   const auto source = read_text(path, diagnostics);
@@ -76,6 +75,23 @@ Json read_answer(const std::filesystem::path& path, const AnswerPlot& plot, Inpu
 }
 
 namespace {
+
+struct TransferOptions {
+  std::vector<std::filesystem::path> dark;
+  std::vector<std::filesystem::path> flat;
+  std::filesystem::path plot;
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
+};
+
+struct MtfOptions {
+  std::filesystem::path image;
+  std::optional<Crop> crop;
+  std::string channel;
+  std::filesystem::path plot;
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
+};
 
 void warn_of_missing_saturation(const std::vector<ChannelTransfer>& channels) {
   std::string unsaturated;
@@ -139,9 +155,8 @@ void warn_of_saturated_edge(const RawImage& read, std::span<const double> values
   const std::optional<ClippingLevel> end = clipping_level(read);
   if (!end) return;
   const auto pixels = static_cast<double>(values.size());
-  const auto saturated = static_cast<double>(std::count_if(values.begin(), values.end(), [&](double value) {
-    return code_of(static_cast<float>(value)) >= end->dn;
-  }));
+  const auto saturated = static_cast<double>(std::ranges::count_if(
+      values, [&](double value) { return code_of(static_cast<float>(value)) >= end->dn; }));
   if (exceeds_defects(saturated, pixels))
     print_message(fmt::format(
         "warning: {}: the bright side of the edge {} saturated, which distorts the MTF (got "
@@ -172,9 +187,7 @@ EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {
   return slanted_edge(values, crop.x1 - crop.x0, crop.y1 - crop.y0);
 }
 
-}  // namespace
-
-int transfer(const TransferOptions& options) {
+void transfer(const TransferOptions& options) {
   if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   Inputs inputs(options.max_memory_bytes);
   std::vector<std::string> warnings;
@@ -199,27 +212,25 @@ int transfer(const TransferOptions& options) {
     answer["snr10_e"].push_back(one.snr10_e);
     answer["linearity_error_percent"].push_back(or_null(transfer.linearity_error_percent));
     answer["snr10_lx_s"].push_back(or_null(one.snr10_lx_s));
-  }
-  Json with_curves = answer;
-  for (const ChannelTransfer& one : channels) {
     Json signals = Json::array();
     Json variances = Json::array();
-    for (const TransferPoint& point : one.transfer.points) {
+    for (const TransferPoint& point : transfer.points) {
       signals.push_back(point.signal_dn);
       variances.push_back(point.variance_dn2);
     }
-    with_curves["signal_dn"].push_back(std::move(signals));
-    with_curves["variance_dn2"].push_back(std::move(variances));
+    answer["signal_dn"].push_back(std::move(signals));
+    answer["variance_dn2"].push_back(std::move(variances));
   }
   if (!options.plot.empty()) {
     require_distinct(std::array{options.plot}, inputs.files());
-    write_atomically(options.plot, transfer_plot(with_curves));
+    write_atomically(options.plot, transfer_plot(answer));
   }
-  print(options.json ? with_curves : answer, options.json);
-  return 0;
+  if (!options.json)
+    for (const char* curve : {"signal_dn", "variance_dn2"}) answer.erase(curve);
+  print(answer, options.json);
 }
 
-int mtf(const MtfOptions& options) {
+void mtf(const MtfOptions& options) {
   if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   Inputs inputs(options.max_memory_bytes);
   const EdgeResponse edge = measure_edge(options, inputs);
@@ -236,7 +247,38 @@ int mtf(const MtfOptions& options) {
     write_atomically(options.plot, mtf_plot(answer));
   }
   print(answer, options.json);
-  return 0;
+}
+
+}  // namespace
+
+void add_transfer(CLI::App& app, Command& command) {
+  const Subcommand<TransferOptions> sub(
+      app, "transfer", "Gain, noise and dynamic range of a sensor from pairs of flat and dark raw files",
+      command, transfer);
+  add_value(*sub.app, "--dark", sub->dark,
+            "Dark frames in successive pairs of equal exposure, with at least two exposure times", "FILE...")
+      ->required();
+  add_value(*sub.app, "--lit", sub->flat,
+            "Uniformly illuminated (flat) frames in successive pairs of equal exposure, from weak "
+            "light to above saturation",
+            "FILE...")
+      ->required();
+  add_value(*sub.app, "--plot", sub->plot, "Plot of the photon-transfer curves to write", "FILE.svg");
+  add_max_memory(*sub.app, sub.options);
+  add_json(*sub.app, sub->json);
+}
+
+void add_mtf(CLI::App& app, Command& command) {
+  const Subcommand<MtfOptions> sub(
+      app, "mtf", "Modulation transfer function of a slanted edge in a linear image", command, mtf);
+  add_value(*sub.app, "image", sub->image, "Film or linear picture with a slanted edge", "FILE")->required();
+  add_parsed(*sub.app, "--crop", sub->crop, parse_crop,
+             "Pixels around the edge, X0 <= x < X1 and Y0 <= y < Y1 (default: all)", "X0,Y0,X1,Y1");
+  add_value(*sub.app, "--channel", sub->channel,
+            "Channel to evaluate (default: G, otherwise Y, otherwise the first)", "NAME");
+  add_value(*sub.app, "--plot", sub->plot, "Plot of the function to write", "FILE.svg");
+  add_max_memory(*sub.app, sub.options);
+  add_json(*sub.app, sub->json);
 }
 
 }  // namespace abbe::cli

@@ -28,8 +28,8 @@ constexpr double kDirectionStep = 0x1p-24;  // Float step of a component near 1,
 void check_shapes(const LoadContext& context, const Scene& scene) {
   std::vector<bool> emitting_mesh(scene.shapes.size(), false);
   for (const Light& light : scene.lights)
-    if (const auto* emitter = std::get_if<AreaLight>(&light.kind))
-      emitting_mesh[emitter->shape] = plain<Mesh>(scene.shapes[emitter->shape].shape) != nullptr;
+    if (const auto surface = surface_of(light))
+      emitting_mesh[*surface] = plain<Mesh>(scene.shapes[*surface].shape) != nullptr;
   const double far_threshold = working_range_of(scene.camera, scene.shapes).far_threshold;
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     const ShapeInstance& instance = scene.shapes[i];

@@ -112,7 +112,7 @@ Fields fields(Tag<MeshEmission>) {
 }
 Fields fields(Tag<AreaLightEmission>) {
   return describe_emission<AreaLightEmission>(
-      "lamp_emission", "Emission of a surface, with the same radiance in all directions.", true,
+      "surface_emission", "Emission of a surface, with the same radiance in all directions.", true,
       amount<Quantity::radiant_flux>(), amount<Quantity::luminous_flux>(), amount<Quantity::radiance>(),
       amount<Quantity::luminance>(), amount_at<Quantity::irradiance>(), amount_at<Quantity::illuminance>());
 }
@@ -124,9 +124,9 @@ Fields fields(Tag<PointEmission>) {
       amount_at<Quantity::illuminance>());
 }
 Fields fields(Tag<DirectionalLightEmission>) {
-  return describe_emission<DirectionalLightEmission>("beam_emission", "Emission of a directional light.",
-                                                     false, amount<Quantity::irradiance>(),
-                                                     amount<Quantity::illuminance>());
+  return describe_emission<DirectionalLightEmission>(
+      "directional_emission", "Emission of a directional light.", false, amount<Quantity::irradiance>(),
+      amount<Quantity::illuminance>());
 }
 Fields fields(Tag<SunEmission>) {
   return describe_emission<SunEmission>("sun_emission", "Emission of a disc at infinity.", false,
@@ -134,9 +134,9 @@ Fields fields(Tag<SunEmission>) {
                                         amount<Quantity::irradiance>(), amount<Quantity::illuminance>());
 }
 Fields fields(Tag<EnvironmentLightEmission>) {
-  return describe_emission<EnvironmentLightEmission>("sky_emission", "Emission of an environment light.",
-                                                     false, amount<Quantity::radiance>(),
-                                                     amount<Quantity::luminance>());
+  return describe_emission<EnvironmentLightEmission>(
+      "environment_emission", "Emission of an environment light.", false, amount<Quantity::radiance>(),
+      amount<Quantity::luminance>());
 }
 
 }  // namespace abbe::spec

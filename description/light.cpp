@@ -120,17 +120,21 @@ static Fields fields(Tag<EnvironmentLight>) {
                   {at_most_one(&EnvironmentLight::image, "", inlined_by<EnvironmentImage>("image"))});
 }
 
+template <typename... Surfaces>
+static Field kinds_of_light(Tag<std::variant<Surfaces...>>) {
+  return one_of(&Light::kind, inlined_by<AreaLight<Surfaces>>(fields_of<Surfaces>().name)...,
+                inlined_by<PointLightSource>("point"), inlined_by<SpotLightSource>("spot"),
+                inlined_by<PhotometricLightSource>("photometric"),
+                inlined_by<DirectionalLightSource>("directional"), inlined_by<SunLightSource>("sun"),
+                inlined_by<EnvironmentLightSource>("environment"));
+}
+
 Fields fields(Tag<Light>) {
-  return describe(
-      "light", "A light.",
-      {field("name", &Light::name, "Name for messages and for references to it as a white."),
-       one_of(&Light::kind, inlined_by<AreaLight<Quad>>("quad"), inlined_by<AreaLight<Sphere>>("sphere"),
-              inlined_by<AreaLight<Disc>>("disc"), inlined_by<PointLightSource>("point"),
-              inlined_by<SpotLightSource>("spot"), inlined_by<PhotometricLightSource>("photometric"),
-              inlined_by<DirectionalLightSource>("directional"), inlined_by<SunLightSource>("sun"),
-              inlined_by<EnvironmentLightSource>("environment")),
-       field("motion", &Light::motion,
-             "Motion relative to the described pose; a light at infinity cannot move.")});
+  return describe("light", "A light.",
+                  {field("name", &Light::name, "Name for messages and for references to it as a white."),
+                   kinds_of_light(Tag<PlainSurface>()),
+                   field("motion", &Light::motion,
+                         "Motion relative to the described pose; a light at infinity cannot move.")});
 }
 
 }  // namespace abbe::spec
@@ -142,44 +146,17 @@ double inverse_square(double distance) {
   return 1 / (distance * distance);
 }
 
-// Irradiance of a surface on the axis that faces the light, for unit radiance [sr]; 0 inside the light.
-double axial_irradiance(const Sphere& sphere, double distance) {
-  const double sine = sphere.radius / distance;
-  return sine < 1 ? std::numbers::pi * sine * sine : 0;
-}
-double axial_irradiance(const Disc& disc, double distance) {
-  const double r2 = disc.radius * disc.radius;
-  return std::numbers::pi * r2 / (r2 + distance * distance);
-}
-// Half the sum over the edges of the angle that each edge subtends, times the cosine of its tilt
-// [Lambert1760]. Let a and b be the vectors from the center to the ends of an edge, n the normal, and d the
-// distance. The plane through the edge and the point has the normal (a + n d) x (b + n d). Its component
-// along n is that of a x b. In this form nothing cancels at large distances.
-double axial_irradiance(const Quad& quad, double distance) {
-  const Imath::V3d normal = normal_of(quad);
-  const Imath::V3d first = (quad.edge_u + quad.edge_v) / -2;
-  const std::array corners{first, first + quad.edge_u, -first, first + quad.edge_v};
-  double sum = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Imath::V3d& a = corners.at(i);
-    const Imath::V3d& b = corners.at((i + 1) % corners.size());
-    const double along = a.cross(b).dot(normal);
-    const double across = std::hypot(along, distance * (b - a).length());
-    sum += std::atan2(across, a.dot(b) + distance * distance) * along / across;
-  }
-  return std::abs(sum) / 2;
-}
-
 LightKind area_light_kind(const Shape& shape, bool two_sided) {
   LightKind kind{schema::fields_of<spec::MeshEmission>, CurveUnit::spectral_radiance,
                  std::numbers::pi * area(shape) * (two_sided ? 2 : 1)};
-  const auto use_plain_shape = [&kind](const auto& plain_shape) {
-    kind.fields = schema::fields_of<spec::AreaLightEmission>;
-    kind.irradiance = [plain_shape](double distance) { return axial_irradiance(plain_shape, distance); };
-  };
-  if (const auto* sphere = plain<Sphere>(shape)) use_plain_shape(*sphere);
-  if (const auto* disc = plain<Disc>(shape)) use_plain_shape(*disc);
-  if (const auto* quad = plain<Quad>(shape)) use_plain_shape(*quad);
+  visit_plain(
+      [&kind](const auto& s) {
+        if constexpr (requires { axial_irradiance(s, 1.0); }) {
+          kind.fields = schema::fields_of<spec::AreaLightEmission>;
+          kind.irradiance = [s](double distance) { return axial_irradiance(s, distance); };
+        }
+      },
+      shape);
   return kind;
 }
 
@@ -245,8 +222,7 @@ struct LightBuilder {
     // The cap of the cone is 1 - cos a = 2 sin^2(a/2) for the half-angle a. This form has no cancellation.
     const double sine = std::sin(spec.source.half_angle_deg * std::numbers::pi / 360);
     const PoseAndMotion moving = point_motion();
-    Imath::V3d axis;
-    moving.pose_at_opening.multDirMatrix(spec.source.direction.normalized(), axis);
+    const Imath::V3d axis = moved_direction(spec.source.direction.normalized(), moving.pose_at_opening);
     const SpotLight spot{position(spec.source.at, moving), Imath::V3f(axis),
                          static_cast<float>(2 * sine * sine), moving.motion};
     const double solid_angle = 2 * std::numbers::pi * static_cast<double>(spot.cap);
@@ -273,9 +249,7 @@ struct LightBuilder {
       emission.scale = spec::Amount<luminous_flux>{{distribution->luminous_flux()}};
     const PoseAndMotion moving = point_motion();
     const auto posed = [&moving](const Imath::V3d& direction) {
-      Imath::V3d rotated;
-      moving.pose_at_opening.multDirMatrix(direction, rotated);
-      return Imath::V3f(rotated);
+      return Imath::V3f(moved_direction(direction, moving.pose_at_opening));
     };
     add(PhotometricLight{position(spec.source.at, moving), posed(axis), posed(c0.normalized()), distribution,
                          moving.motion},

@@ -91,10 +91,9 @@ using EnvironmentLightSource = LightSource<EnvironmentLight, EnvironmentLightEmi
 /// A light of a scene file. `std::monostate` means that none has been read.
 struct Light {
   std::optional<std::string> name;  ///< If absent, messages call it "light N", counted from 0.
-  std::variant<std::monostate, AreaLight<Quad>, AreaLight<Sphere>, AreaLight<Disc>, PointLightSource,
-               SpotLightSource, PhotometricLightSource, DirectionalLightSource, SunLightSource,
-               EnvironmentLightSource>
-      kind;
+  Joined<std::variant<std::monostate>, Each<AreaLight, PlainSurface>::type,
+         std::variant<PointLightSource, SpotLightSource, PhotometricLightSource, DirectionalLightSource,
+                      SunLightSource, EnvironmentLightSource>>::type kind;
   SourcePosition where;
   std::optional<Motion> motion = {};  ///< Motion relative to the described pose; at rest if absent.
 };

@@ -71,9 +71,10 @@ void check_table_range(std::span<const PartialTable> tables, const Curve& light,
                        std::span<const Channel> channels, LoadContext& context) {
   Diagnostics faults;
   for (const auto& [table, where, channel_name] : tables) {
-    if (channel_name.empty()) abbe::check_table_range(table, light, channels, where, faults);
+    if (channel_name.empty()) abbe::check_table_range(table, light, named_responses(channels), where, faults);
     for (const Channel& channel : channels)
-      if (channel.name == channel_name) abbe::check_table_range(table, light, {&channel, 1}, where, faults);
+      if (channel.name == channel_name)
+        abbe::check_table_range(table, light, named_responses({&channel, 1}), where, faults);
   }
   report_once(faults, context);
 }

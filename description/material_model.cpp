@@ -346,7 +346,7 @@ struct ModelBuilder {
       context.diagnostics.error(spec.ior.where, *fault);
       return std::nullopt;
     }
-    return CoatedDiffuseMaterial{std::move(ior->name), std::move(ior->index), std::move(*reflectance)};
+    return CoatedDiffuseMaterial{std::move(*reflectance), std::move(ior->name), std::move(ior->index)};
   }
   Model operator()(const spec::ThinGlass& spec) const {
     auto ior = build(spec.ior, context);

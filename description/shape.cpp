@@ -82,15 +82,20 @@ static Fields fields(Tag<Instance>) {
        defaulted("transform", &Instance::transform, affine_steps(), "Placement of the object, in steps.")});
 }
 
+// The key of a surface is the name of its table.
+template <typename... Plain, typename... Solid>
+static Field kinds_of_shape(Tag<std::variant<Plain...>>, Tag<std::variant<Solid...>>) {
+  return one_of(&Shape::kind, inlined_by<MeshBody>("mesh"),
+                inlined_by<PlainBody<Plain>>(fields_of<Plain>().name)...,
+                inlined_by<SolidBody<Solid>>(fields_of<Solid>().name)..., inlined_by<ChartShape>("chart"),
+                under<Instance>("instance"));
+}
+
 Fields fields(Tag<Shape>) {
   return describe(
       "shape", "A shape.",
       {field("name", &Shape::name, "Name for messages, and for references to it as a white if it emits."),
-       one_of(&Shape::kind, inlined_by<MeshBody>("mesh"), inlined_by<PlainBody<Sphere>>("sphere"),
-              inlined_by<PlainBody<Disc>>("disc"), inlined_by<PlainBody<Quad>>("quad"),
-              inlined_by<SolidBody<Cylinder>>("cylinder"), inlined_by<SolidBody<Cone>>("cone"),
-              inlined_by<SolidBody<Paraboloid>>("paraboloid"), inlined_by<SolidBody<Prism>>("prism"),
-              inlined_by<ChartShape>("chart"), under<Instance>("instance")),
+       kinds_of_shape(Tag<PlainSurface>(), Tag<SolidSurface>()),
        field("motion", &Shape::motion, "Motion relative to the described pose; a chart cannot move.")});
 }
 

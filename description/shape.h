@@ -37,7 +37,7 @@ using MeshBody = Body<Mesh, std::optional<MaterialName>, MeshEmission>;  ///< Ma
 /// A shape whose irradiance on an axis is not a formula, so that its emission cannot be given by that.
 template <typename Surface>
 using SolidBody = Body<Surface, MaterialName, MeshEmission>;
-/// A sphere, disc or quad as a shape.
+/// A `PlainSurface` as a shape.
 template <typename Surface>
 using PlainBody = Body<Surface, MaterialName, AreaLightEmission>;
 /// A colour chart of six patches a row. It faces edge_u x edge_v, the side of the reader.
@@ -64,10 +64,8 @@ struct Instance {
 /// A shape of a scene file. `std::monostate` means that none has been read.
 struct Shape {
   std::optional<std::string> name;  ///< If absent, messages call it "shape N", counted from 0.
-  std::variant<std::monostate, MeshBody, PlainBody<Sphere>, PlainBody<Disc>, PlainBody<Quad>,
-               SolidBody<Cylinder>, SolidBody<Cone>, SolidBody<Paraboloid>, SolidBody<Prism>, ChartShape,
-               Instance>
-      kind;
+  Joined<std::variant<std::monostate, MeshBody>, Each<PlainBody, PlainSurface>::type,
+         Each<SolidBody, SolidSurface>::type, std::variant<ChartShape, Instance>>::type kind;
   SourcePosition where;
   std::optional<Motion> motion = {};  ///< Motion relative to the described pose; at rest if absent.
 };

@@ -1,7 +1,11 @@
 #include "description/surface.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
+#include <ImathMatrixAlgo.h>
 #include <fmt/format.h>
 
 #include "description/meshes/mesh_file.h"
@@ -9,6 +13,136 @@
 #include "scene/shapes/mesh.h"
 
 namespace abbe::spec {
+namespace {
+
+using Imath::M44d;
+using Imath::V3d;
+
+constexpr int kFacetsPerTurn = 64;
+constexpr int kFacetsPerHalfTurn = 32;
+
+// True if the matrix only translates and scales, so that longitudes and latitudes are preserved.
+bool preserves_axes(const M44d& m) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (i == j ? m[i][j] <= 0 : m[i][j] != 0) return false;
+  return true;
+}
+
+InlineMesh transformed(InlineMesh mesh, const M44d& by) {
+  for (std::array<double, 3>& vertex : mesh.vertices) {
+    const V3d p = V3d(vertex[0], vertex[1], vertex[2]) * by;
+    vertex = {p.x, p.y, p.z};
+  }
+  return mesh;
+}
+
+// A surface of revolution about z, as triangles around an axis that starts at `from`.
+InlineMesh around(const V3d& axis, const V3d& from, const std::vector<Imath::V2d>& line) {
+  const M44d turn = Imath::rotationMatrix(V3d(0, 0, 1), axis.normalized());
+  return transformed(swept(line, 360), turn * M44d().setTranslation(from));
+}
+
+}  // namespace
+
+std::optional<MovableSurface> moved(const Quad& quad, const SurfaceMap& by) {
+  V3d u = moved_direction(quad.edge_u, by.matrix);
+  V3d v = moved_direction(quad.edge_v, by.matrix);
+  if (by.mirrors != by.reverses) {
+    if (by.textured) return moved(triangles_of(quad), by);
+    std::swap(u, v);
+  }
+  return Quad{quad.corner * by.matrix, u, v, quad.where};
+}
+
+// Longitudes and latitudes count only on textures.
+std::optional<MovableSurface> moved(const Sphere& sphere, const SurfaceMap& by) {
+  if (!by.scale || (by.textured && !preserves_axes(by.matrix))) return std::nullopt;
+  return Sphere{sphere.center * by.matrix, sphere.radius * *by.scale};
+}
+
+std::optional<MovableSurface> moved(const Disc& disc, const SurfaceMap& by) {
+  if (!by.scale || by.textured) return std::nullopt;
+  const V3d normal = moved_direction(disc.normal, by.matrix).normalized() * (by.reverses ? -1.0 : 1.0);
+  return Disc{disc.center * by.matrix, normal, disc.radius * *by.scale};
+}
+
+std::optional<MovableSurface> moved(const Cylinder& cylinder, const SurfaceMap& by) {
+  if (!by.scale || by.textured || (by.reverses && by.emits)) return std::nullopt;
+  return Cylinder{cylinder.from * by.matrix, cylinder.to * by.matrix, cylinder.radius * *by.scale,
+                  cylinder.caps, cylinder.where};
+}
+
+std::optional<MovableSurface> moved(const InlineMesh& mesh, const SurfaceMap& by) {
+  InlineMesh result = transformed(mesh, by.matrix);
+  if (by.mirrors != by.reverses)
+    for (auto& triangle : result.triangles) std::swap(triangle[1], triangle[2]);
+  return result;
+}
+
+InlineMesh triangles_of(const Quad& quad) {
+  InlineMesh mesh;
+  mesh.uv.emplace();
+  for (const auto& [u, v] : std::array<std::array<double, 2>, 4>{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}) {
+    const V3d at = quad.corner + quad.edge_u * u + quad.edge_v * v;
+    mesh.vertices.push_back({at.x, at.y, at.z});
+    mesh.uv->value.push_back({u, v});
+  }
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+InlineMesh triangles_of(const Sphere& sphere) {
+  return transformed(swept_sphere(sphere.radius, -sphere.radius, sphere.radius, 360),
+                     M44d().setTranslation(sphere.center));
+}
+
+InlineMesh triangles_of(const Disc& disc) {
+  return around(disc.normal, disc.center, {{disc.radius, 0}, {0, 0}});
+}
+
+InlineMesh triangles_of(const Cylinder& cylinder) {
+  const V3d axis = cylinder.to - cylinder.from;
+  return around(axis, cylinder.from, {{cylinder.radius, 0}, {cylinder.radius, axis.length()}});
+}
+
+InlineMesh swept(const std::vector<Imath::V2d>& line, double azimuth_deg) {
+  InlineMesh mesh;
+  mesh.uv.emplace();
+  const int columns = std::max(3, static_cast<int>(std::ceil(kFacetsPerTurn * azimuth_deg / 360)));
+  const auto rows = static_cast<int>(line.size());
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i <= columns; ++i) {
+      const double fraction = static_cast<double>(i) / columns;
+      // A full turn ends at azimuth 0, so that the seam is closed.
+      const double phi =
+          i == columns && azimuth_deg == 360 ? 0 : fraction * azimuth_deg * std::numbers::pi / 180;
+      const Imath::V2d& at = line[static_cast<std::size_t>(j)];
+      mesh.vertices.push_back({at.x * std::cos(phi), at.x * std::sin(phi), at.y});
+      mesh.uv->value.push_back({fraction, static_cast<double>(j) / (rows - 1)});
+    }
+  for (int j = 0; j + 1 < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const auto a = static_cast<std::uint32_t>(j * (columns + 1) + i);
+      const std::uint32_t b = a + static_cast<std::uint32_t>(columns) + 1;
+      // At the axis one of the two triangles is degenerate.
+      if (line[static_cast<std::size_t>(j)].x > 0) mesh.triangles.push_back({a, a + 1, b + 1});
+      if (line[static_cast<std::size_t>(j) + 1].x > 0) mesh.triangles.push_back({a, b + 1, b});
+    }
+  return mesh;
+}
+
+InlineMesh swept_sphere(double radius, double low, double high, double azimuth_deg) {
+  const double from = std::asin(std::clamp(low / radius, -1.0, 1.0));
+  const double to = std::asin(std::clamp(high / radius, -1.0, 1.0));
+  std::vector<Imath::V2d> line;
+  for (int j = 0; j <= kFacetsPerHalfTurn; ++j) {
+    const double latitude = from + (to - from) * j / kFacetsPerHalfTurn;
+    const bool pole = std::abs(std::abs(latitude) - std::numbers::pi / 2) < 1e-9;
+    line.emplace_back(pole ? 0 : radius * std::cos(latitude), radius * std::sin(latitude));
+  }
+  return swept(line, azimuth_deg);
+}
 
 using namespace schema;
 

@@ -3,8 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <variant>
 #include <vector>
 
+#include <ImathMatrix.h>
 #include <ImathVec.h>
 
 #include "description/load_context.h"
@@ -72,6 +74,55 @@ struct InlineMesh {
   std::optional<schema::Located<std::vector<std::array<double, 2>>>> uv;
   SourcePosition where;
 };
+/// Surfaces that may be lights by themselves. The irradiance on their axis is a formula.
+using PlainSurface = std::variant<Quad, Sphere, Disc>;
+/// Closed surfaces and quadrics whose irradiance on the axis is not a formula.
+using SolidSurface = std::variant<Cylinder, Cone, Paraboloid, Prism>;
+/// A variant with `Of<S>` for each alternative S of a variant.
+template <template <typename> typename Of, typename Surfaces>
+struct Each;
+template <template <typename> typename Of, typename... S>
+struct Each<Of, std::variant<S...>> {
+  using type = std::variant<Of<S>...>;
+};
+
+/// Surfaces of other programs' scenes.
+using MovableSurface = Joined<PlainSurface, std::variant<Cylinder, InlineMesh>>::type;
+/// An affine map of a surface.
+struct SurfaceMap {
+  Imath::M44d matrix;           ///< For row vectors.
+  std::optional<double> scale;  ///< Factor of all lengths, if it is the same.
+  bool mirrors = false;         ///< True if the matrix changes handedness.
+  bool reverses = false;        ///< True if the front becomes the back.
+  bool textured = false;        ///< True if texture coordinates must be preserved.
+  bool emits = false;           ///< True if the front emits.
+};
+/// The surface as mapped, or its triangles. After a reflection the front is the reflected front.
+/// Spheres stay as they are if reversed. Nothing if the map does not preserve the form, a texture or the
+/// emitting side.
+[[nodiscard]] std::optional<MovableSurface> moved(const Quad& quad, const SurfaceMap& by);
+[[nodiscard]] std::optional<MovableSurface> moved(const Sphere& sphere, const SurfaceMap& by);
+[[nodiscard]] std::optional<MovableSurface> moved(const Disc& disc, const SurfaceMap& by);
+[[nodiscard]] std::optional<MovableSurface> moved(const Cylinder& cylinder, const SurfaceMap& by);
+[[nodiscard]] std::optional<MovableSurface> moved(const InlineMesh& mesh, const SurfaceMap& by);
+/// Triangles of a surface, without caps, with texture coordinates from 0 to 1. Those of curved surfaces are
+/// as in `swept`.
+[[nodiscard]] InlineMesh triangles_of(const Quad& quad);
+[[nodiscard]] InlineMesh triangles_of(const Sphere& sphere);
+[[nodiscard]] InlineMesh triangles_of(const Disc& disc);
+[[nodiscard]] InlineMesh triangles_of(const Cylinder& cylinder);
+[[nodiscard]] inline InlineMesh triangles_of(const InlineMesh& mesh) {
+  return mesh;
+}
+/// The surface of revolution about z of a polyline of two or more points (r, z), r >= 0. The azimuth runs
+/// from 0 at +x over +y to `azimuth_deg`, in (0, 360], in facets of at most 5.625 degrees. Its front is along
+/// (increasing azimuth) x (along the line). Texture coordinates run from 0 to 1: u with the azimuth, v from
+/// point to point.
+[[nodiscard]] InlineMesh swept(const std::vector<Imath::V2d>& line, double azimuth_deg);
+/// The part of a sphere around the origin with z between `low` and `high`, as triangles. The heights are
+/// clamped to [-radius, radius]. The azimuth is that of `swept`. The front is outside; v increases with z.
+[[nodiscard]] InlineMesh swept_sphere(double radius, double low, double high, double azimuth_deg);
+
 // Key tables and forms by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<Sphere>);
 [[nodiscard]] schema::Fields fields(schema::Tag<Disc>);

@@ -105,7 +105,7 @@ void add_stokes(const std::string& name, const std::vector<Measurement>& group, 
   }
   for (int component = 0; component < 3; ++component)
     stokes.channels.push_back(
-        {name_of({component, name}), std::move(planes.at(static_cast<std::size_t>(component)))});
+        {stokes_plane_name(component, name), std::move(planes.at(static_cast<std::size_t>(component)))});
 }
 
 }  // namespace

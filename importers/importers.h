@@ -23,11 +23,11 @@ struct ConversionOptions {
 [[nodiscard]] bool is_importable_scene(const std::filesystem::path& path);
 
 /// Converts a scene of another renderer to a scene file of Abbe, as far as Abbe can represent it, and returns
-/// its text; no file is written. `path` must satisfy `is_importable_scene`; otherwise the behaviour is
-/// undefined. Approximated or dropped properties are reported as warnings, and listed in comments at the
-/// start of the text. Reports all errors, also of loading the result, and returns nothing if `diagnostics`
-/// then has an error. All files that are read are added to `inputs`, if given. Throws Error{resource} if its
-/// memory limit is exceeded, and Error{input} for an unreadable environment image.
+/// its text. `path` must satisfy `is_importable_scene`; otherwise the behaviour is undefined. Approximated or
+/// dropped properties are reported as warnings, and listed in comments at the start of the text. Reports all
+/// errors, also of loading the result, and returns nothing if `diagnostics` then has an error. All files that
+/// are read are added to `inputs`, if given. Throws Error{resource} if its memory limit is exceeded, and
+/// Error{input} for an unreadable environment image.
 [[nodiscard]] std::optional<std::string> convert_scene(const std::filesystem::path& path,
                                                        const ConversionOptions& conversion,
                                                        Diagnostics& diagnostics, Inputs* inputs = nullptr);

@@ -54,9 +54,8 @@ void Beam::set_field(double field) {
 
 Ray Beam::launch(const V2d& p) const {
   if (at_->system->object_distance_mm) {
-    const V3d through(
-        p.x, p.y,
-        0);  // far objects are rounded more coarsely than the stop allows, so the ray does not start there
+    // Far objects are rounded more coarsely than the stop allows, so the ray does not start there.
+    const V3d through(p.x, p.y, 0);
     return {through, (through - object_).normalized()};
   }
   const V3d up(0, direction_.z, -direction_.y);

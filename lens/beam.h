@@ -9,18 +9,16 @@
 
 namespace abbe::lens {
 
-/// The rays from one object point at one wavelength, addressed by their position at the stop. Coordinates are
-/// those of `system.h` [mm]; no function throws.
-///
-/// A ray is given by its point in a launch plane in front of the lens. For an object at infinity, this is the
-/// plane normal to its direction through the center of the paraxial entrance pupil, and equal areas carry
-/// equal power. Its axes are x and, for y, the direction normal to x and to the rays. For a near object, it
-/// is the tangent plane of the first vertex.
+/// The rays from one object point at one wavelength, in the coordinates of `system.h` [mm]; no function
+/// throws. A ray is given by its point in a launch plane in front of the lens. For an object at infinity,
+/// this is the plane normal to its direction through the center of the paraxial entrance pupil. Its axes are
+/// x and the direction normal to x and to the rays. For a near object, it is the tangent plane of the first
+/// vertex.
 class Beam {
  public:
-  /// Creates the beam of `field` as defined in `System`, ignoring clear apertures. Nothing if no ray passes
-  /// through the center of the stop. `stop_radius_mm` > 0 is the unit of positions at the stop. `at` must
-  /// outlive the beam.
+  /// Beam of `field` as defined in `System`, ignoring clear apertures. Nothing if no ray passes through the
+  /// center of the stop. `stop_radius_mm` > 0 is the unit of positions at the stop. `at` must outlive the
+  /// beam.
   [[nodiscard]] static std::optional<Beam> of(const SystemAt& at, double field, double stop_radius_mm);
 
   /// Ray through a point of the launch plane [mm], on which it starts, towards +z.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -58,7 +59,6 @@ std::optional<StopImage> finite_stop_image(const SpectralSystem& system, double 
   return std::isfinite(image.magnification) ? std::optional(image) : std::nullopt;
 }
 
-// Square around the paraxial exit pupil.
 Box paraxial_box(const PupilRays& rays) {
   const SpectralSystem& system = rays.system;
   const std::optional<StopImage> image = finite_stop_image(system, rays.wavelength_nm);
@@ -71,13 +71,11 @@ Box paraxial_box(const PupilRays& rays) {
 struct Grid {
   Box box;
   [[nodiscard]] V2d cell() const { return box.size() / kGridSide; }
-  [[nodiscard]] V2d cell_center(int i, int j) const {
-    return box.min + V2d((i + 0.5) * cell().x, (j + 0.5) * cell().y);
-  }
   [[nodiscard]] std::vector<V2d> centers() const {
     std::vector<V2d> all;
     for (int j = 0; j < kGridSide; ++j)
-      for (int i = 0; i < kGridSide; ++i) all.push_back(cell_center(i, j));
+      for (int i = 0; i < kGridSide; ++i)
+        all.push_back(box.min + V2d((i + 0.5) * cell().x, (j + 0.5) * cell().y));
     return all;
   }
 };
@@ -226,7 +224,6 @@ struct PupilView {
   [[nodiscard]] bool is_illuminated() const { return !points.empty(); }
 };
 
-// Collects the pupils of several image points, and bounds the rays that enter the lens.
 class PupilCollector {
  public:
   PupilCollector(const SpectralSystem& system, std::span<const double> wavelengths_nm)
@@ -263,14 +260,12 @@ class PupilCollector {
     return rim;
   }
 
-  // The smallest of the discs.
   [[nodiscard]] EntranceDisc entrance() const {
     EntranceDisc best = planes_.front();
     for (const EntranceDisc& plane : planes_)
       if (plane.radius < best.radius) best = plane;
     return {best.z, best.radius * kMargin};
   }
-  // Radius of the disc in the plane of the first vertex.
   [[nodiscard]] double front_radius() const { return planes_.front().radius * kMargin; }
   [[nodiscard]] double min_cosine() const { return min_cosine_ * kCosineMargin; }
 
@@ -306,8 +301,8 @@ PupilBound around(const std::vector<V2d>& points) {
   return bound;
 }
 
-// Ellipse around the pupils of image points near `center`, as seen from there. A pupil moves by `shift` times
-// the movement of the image point.
+// Ellipse around the pupils of image points near `center`, for light to `center`. A pupil moves by `shift`
+// times the movement of the image point.
 PupilBound around(std::span<const PupilView> views, const V2d& center, double shift) {
   std::vector<V2d> points;
   for (const PupilView& from : views)
@@ -317,6 +312,54 @@ PupilBound around(std::span<const PupilView> views, const V2d& center, double sh
 
 void append(std::vector<PupilView>& all, const std::vector<PupilView>& more) {
   all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Image point at a grid position in cells.
+using GridPoint = std::function<V2d(double column, double row)>;
+
+// Bounds at the centers of the cells of a radius of the image.
+std::vector<PupilBound> bounds_along_radius(int columns, double shift, const GridPoint& at,
+                                            PupilCollector& collector) {
+  std::vector<PupilBound> bounds;
+  PupilView before = collector.view_from(at(0, 0));
+  for (int i = 1; i <= columns; ++i) {
+    PupilView here = collector.view_from(at(i, 0));
+    std::vector<PupilView> views = collector.rim_between(before, here);
+    append(views, {std::move(before), here});
+    bounds.push_back(around(views, at(i - 0.5, 0), shift));
+    before = std::move(here);
+  }
+  return bounds;
+}
+
+// Bounds at the centers of the cells of the image, row by row.
+std::vector<PupilBound> bounds_all_over(int columns, int rows, double shift, const GridPoint& at,
+                                        PupilCollector& collector) {
+  const auto index = [columns](int i, int j) { return static_cast<std::size_t>(j * (columns + 1) + i); };
+  std::vector<PupilView> corners;
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i <= columns; ++i) corners.push_back(collector.view_from(at(i, j)));
+  // Edges of the illuminated image on the sides of the cells that leave a corner along x and y.
+  std::vector<std::vector<PupilView>> ends_in_x(corners.size());
+  std::vector<std::vector<PupilView>> ends_in_y(corners.size());
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i <= columns; ++i) {
+      const std::size_t here = index(i, j);
+      if (i < columns) ends_in_x[here] = collector.rim_between(corners[here], corners[index(i + 1, j)]);
+      if (j < rows) ends_in_y[here] = collector.rim_between(corners[here], corners[index(i, j + 1)]);
+    }
+  std::vector<PupilBound> bounds;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      std::vector<PupilView> views{corners[index(i, j)], corners[index(i + 1, j)], corners[index(i, j + 1)],
+                                   corners[index(i + 1, j + 1)]};
+      append(views, ends_in_x[index(i, j)]);
+      append(views, ends_in_x[index(i, j + 1)]);
+      append(views, ends_in_y[index(i, j)]);
+      append(views, ends_in_y[index(i + 1, j)]);
+      bounds.push_back(around(views, at(i + 0.5, j + 0.5), shift));
+    }
+  return bounds;
 }
 
 constexpr int kSteps = 8;  // from the center of the image to its corner
@@ -360,58 +403,19 @@ ExitPupil::ExitPupil(const SpectralSystem& system, const V2d& half_image_mm, dou
   const std::array<double, 3> wavelengths_nm{low_nm, (low_nm + high_nm) / 2, high_nm};
   // A round stop, so that the bounds along a radius are valid in all directions.
   const SpectralSystem round(with_round_stop(system.system()), system.stop_radius_mm());
-  centred_ ? bound_along_radius(round, wavelengths_nm) : bound_all_over(round, wavelengths_nm);
-  if (std::all_of(bounds_.begin(), bounds_.end(), [](const PupilBound& b) { return !(b.area() > 0); }))
+  PupilCollector collector(round, wavelengths_nm);
+  const auto point = [this](double column, double row) { return at(column, row); };
+  bounds_ = centred_ ? bounds_along_radius(columns_, shift_, point, collector)
+                     : bounds_all_over(columns_, rows_, shift_, point, collector);
+  entrance_ = collector.entrance();
+  front_radius_ = collector.front_radius();
+  min_cosine_ = collector.min_cosine();
+  if (std::ranges::none_of(bounds_, [](const PupilBound& b) { return b.area() > 0; }))
     throw Error(ErrorCode::scene, system.system().title, "the lens transmits no light to the film");
 }
 
 V2d ExitPupil::at(double column, double row) const {
   return centred_ ? V2d(column * cell_mm_.x, 0) : V2d(column, row) * cell_mm_ - half_image_;
-}
-
-void ExitPupil::bound_along_radius(const SpectralSystem& system, std::span<const double> wavelengths_nm) {
-  PupilCollector collector(system, wavelengths_nm);
-  PupilView before = collector.view_from(at(0, 0));
-  for (int i = 1; i <= columns_; ++i) {
-    PupilView here = collector.view_from(at(i, 0));
-    std::vector<PupilView> views = collector.rim_between(before, here);
-    append(views, {std::move(before), here});
-    bounds_.push_back(around(views, at(i - 0.5, 0), shift_));
-    before = std::move(here);
-  }
-  entrance_ = collector.entrance();
-  front_radius_ = collector.front_radius();
-  min_cosine_ = collector.min_cosine();
-}
-
-void ExitPupil::bound_all_over(const SpectralSystem& system, std::span<const double> wavelengths_nm) {
-  PupilCollector collector(system, wavelengths_nm);
-  const auto index = [this](int i, int j) { return static_cast<std::size_t>(j * (columns_ + 1) + i); };
-  std::vector<PupilView> corners;
-  for (int j = 0; j <= rows_; ++j)
-    for (int i = 0; i <= columns_; ++i) corners.push_back(collector.view_from(at(i, j)));
-  // Edges of the illuminated image on the sides of the cells that leave a corner along x and y.
-  std::vector<std::vector<PupilView>> ends_in_x(corners.size());
-  std::vector<std::vector<PupilView>> ends_in_y(corners.size());
-  for (int j = 0; j <= rows_; ++j)
-    for (int i = 0; i <= columns_; ++i) {
-      const std::size_t here = index(i, j);
-      if (i < columns_) ends_in_x[here] = collector.rim_between(corners[here], corners[index(i + 1, j)]);
-      if (j < rows_) ends_in_y[here] = collector.rim_between(corners[here], corners[index(i, j + 1)]);
-    }
-  for (int j = 0; j < rows_; ++j)
-    for (int i = 0; i < columns_; ++i) {
-      std::vector<PupilView> views{corners[index(i, j)], corners[index(i + 1, j)], corners[index(i, j + 1)],
-                                   corners[index(i + 1, j + 1)]};
-      append(views, ends_in_x[index(i, j)]);
-      append(views, ends_in_x[index(i, j + 1)]);
-      append(views, ends_in_y[index(i, j)]);
-      append(views, ends_in_y[index(i + 1, j)]);
-      bounds_.push_back(around(views, at(i + 0.5, j + 0.5), shift_));
-    }
-  entrance_ = collector.entrance();
-  front_radius_ = collector.front_radius();
-  min_cosine_ = collector.min_cosine();
 }
 
 PupilBound ExitPupil::bound(const V2d& image) const {

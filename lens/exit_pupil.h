@@ -1,7 +1,6 @@
 #pragma once
 
 #include <numbers>
-#include <span>
 #include <vector>
 
 #include "lens/spectral_system.h"
@@ -22,8 +21,7 @@ struct PupilBound {
   [[nodiscard]] bool contains(const Imath::V2d& point) const;
 };
 
-/// Disc in front of a lens through which all its light enters, centered on the axis and normal to it [mm]. z
-/// is measured from the first vertex, as in `system.h`.
+/// Disc in front of a lens through which all its light enters, centered on the axis and normal to it [mm].
 struct EntranceDisc {
   double z;
   double radius;
@@ -32,9 +30,8 @@ struct EntranceDisc {
 /// Bounds of the exit pupil from each point of the image, and of the rays that enter the lens, found once by
 /// tracing from the image. No light that forms the image passes outside them. A stop with blades counts as
 /// its circle. Each bound contains the rims at neighbouring image points and at the edge of the illuminated
-/// image, at three wavelengths: both ends of the range and its center. They are shifted to follow the center
-/// of the pupil between the points, and enlarged a little. Light far outside the beam, which surfaces without
-/// clear apertures would transmit, is ignored.
+/// image, at both ends of the wavelength range and its center. Between the points they follow the center of
+/// the pupil. Light far outside the beam, which surfaces without clear apertures would transmit, is ignored.
 class ExitPupil {
  public:
   /// Bounds the pupil for an image with these half sides [mm], centered on the axis, and wavelengths from
@@ -52,9 +49,6 @@ class ExitPupil {
   [[nodiscard]] double min_cosine() const { return min_cosine_; }
 
  private:
-  void bound_along_radius(const SpectralSystem& system, std::span<const double> wavelengths_nm);
-  void bound_all_over(const SpectralSystem& system, std::span<const double> wavelengths_nm);
-
   // Image point at a grid position in cells; on a radius, only the column counts.
   [[nodiscard]] Imath::V2d at(double column, double row) const;
 

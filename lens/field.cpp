@@ -30,7 +30,6 @@ std::optional<RayPath> chief_path(const SystemAt& at, double field, double stop_
 
 // Values for the rays through the right, left, upper and lower edge of the stop.
 using Ends = std::array<V2d, 4>;
-
 // Radius of the circle with the area of an ellipse, given the ends of two conjugate diameters.
 double mean_radius(const Ends& ends) {
   return std::sqrt(std::abs((ends[0] - ends[1]).cross(ends[2] - ends[3]))) / 2;

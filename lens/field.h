@@ -25,17 +25,16 @@ struct Speed {
 /// f-numbers ignore clear apertures. Nothing if the axial beam does not arrive at the image.
 [[nodiscard]] std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side);
 
-/// Path of the first of four rim rays of the axial beam that does not arrive at the image, because a clear
-/// aperture or surface stops it. The four rays are those along +x, +y, -x and -y in the stop, at its radius
-/// times 1 - `kNominalRounding`; rays that cannot be aimed are skipped. Nothing if none of them is stopped,
-/// or if there is no axial beam.
+/// Path of the first of four rim rays of the axial beam that does not arrive at the image. They are along +x,
+/// +y, -x and -y in the stop, at its radius times 1 - `kNominalRounding`. Rays that cannot be aimed are
+/// skipped. Nothing if all arrive, or if there is no axial beam.
 [[nodiscard]] std::optional<RayPath> cut_rim_ray(const SystemAt& at, double stop_radius_mm);
 
 /// Chief ray of a field in the image plane.
 struct Chief {
   double height_mm;                  ///< y coordinate; clear apertures are ignored.
-  std::optional<double> distortion;  ///< Relative deviation from the paraxial height; nothing if that is 0,
-                                     ///< or for directions of 90 degrees and more.
+  std::optional<double> distortion;  ///< Relative deviation from the paraxial height; nothing if that is 0 or
+                                     ///< undefined.
 };
 /// Traces the chief ray of a field, as defined in `System`. Nothing if it does not arrive at the image. The
 /// paraxial height for `distortion` is that at the paraxial focus, moved to the image plane along the real
@@ -63,7 +62,7 @@ struct RayFan {
   std::vector<std::optional<double>> sagittal;
 };
 /// Traces `count` evenly spaced rays along each diameter, with clear apertures. `chief_point` is (x, y) in
-/// the image plane [mm]. A count of 1 gives the center of the stop.
+/// the image plane [mm].
 [[nodiscard]] RayFan ray_fan(const Beam& beam, const Imath::V2d& chief_point, int count);
 
 }  // namespace abbe::lens

@@ -84,12 +84,7 @@ StopImage stop_image(const SystemAt& at, double distance_mm) {
   return {reduced / by_slope, behind.b / by_slope};
 }
 
-double paraxial_slope(double direction_deg) {
-  if (!(std::abs(direction_deg) < 90)) return std::numeric_limits<double>::quiet_NaN();
-  return std::tan(direction_deg * std::numbers::pi / 180);
-}
-
-ParaxialRay paraxial_chief_ray(const SystemAt& at, double field) {
+ParaxialHit paraxial_chief_ray(const SystemAt& at, double field) {
   const FirstOrder first = first_order(at);
   if (const auto distance = at.system->object_distance_mm) {
     // A ray passes the stop at by_height y + by_slope u, wherever the entrance pupil is.
@@ -98,7 +93,8 @@ ParaxialRay paraxial_chief_ray(const SystemAt& at, double field) {
     const double scale = field / (by_height * *distance + by_slope);
     return {by_slope * scale, -by_height * scale};
   }
-  const double slope = paraxial_slope(field);
+  const double slope = std::abs(field) < 90 ? std::tan(field * std::numbers::pi / 180)
+                                            : std::numeric_limits<double>::quiet_NaN();
   return {-first.entrance_pupil_mm * slope, slope};
 }
 

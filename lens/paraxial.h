@@ -6,7 +6,7 @@
 
 namespace abbe::lens {
 
-/// A paraxial ray at a surface: its height there [mm] and its slope dy/dz behind it.
+/// A paraxial ray at a surface: its height there [mm], and its slope dy/dz behind it if not stated otherwise.
 struct ParaxialHit {
   double y;
   double u;
@@ -39,7 +39,7 @@ struct FirstOrder {
   double magnification;       ///< Lateral magnification of a near object; 0 for one at infinity.
 };
 
-/// First-order properties by the vertex curvatures; ignores decentering and tilts.
+/// Uses the vertex curvatures; ignores decentering and tilts.
 [[nodiscard]] FirstOrder first_order(const SystemAt& at);
 
 /// Projection of the stop from an image point into the tangent plane of the last vertex. A paraxial ray from
@@ -52,18 +52,10 @@ struct StopImage {
 /// exit pupil.
 [[nodiscard]] StopImage stop_image(const SystemAt& at, double distance_mm);
 
-/// Slope dy/dz of a paraxial ray in a direction as defined in `System`: its tangent. NaN for 90 degrees and
-/// more in magnitude.
-[[nodiscard]] double paraxial_slope(double direction_deg);
-
-/// A paraxial ray in object space: its height at the first vertex [mm] and its slope dy/dz before that.
-struct ParaxialRay {
-  double y;
-  double u;
-};
-/// Paraxial chief ray of a field as defined in `System`. NaN for directions of 90 degrees and more, and an
-/// infinite height for a direction to an entrance pupil at infinity.
-[[nodiscard]] ParaxialRay paraxial_chief_ray(const SystemAt& at, double field);
+/// Paraxial chief ray of a field as defined in `System`: its height at the first vertex [mm] and its slope
+/// dy/dz before that. NaN for directions of 90 degrees and more, and an infinite height for a direction to an
+/// entrance pupil at infinity.
+[[nodiscard]] ParaxialHit paraxial_chief_ray(const SystemAt& at, double field);
 
 /// Height of the paraxial chief ray [mm] at a finite distance behind the last vertex. NaN for directions of
 /// 90 degrees and more.

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kWavelengths = 9;
 
-// Reflectance along the normal.
 double reflectance(const SystemAt& at, std::size_t surface) {
   const SurfaceBetween<double> between{at.surface(surface), at.frames[surface], at.n[surface],
                                        at.n[surface + 1]};

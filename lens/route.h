@@ -13,24 +13,23 @@ struct Encounter {
   bool reflects = false;  ///< True for reflection, false for transmission.
 };
 
-/// A surface on a route, by its index from 0, and how light interacts with it.
+/// A surface on a route, and how light interacts with it.
 struct Step {
-  std::size_t surface;
+  std::size_t surface;  ///< Index from 0.
   Encounter how;
 };
 /// Sequence of surfaces that transmit or reflect light on its way from the object to the image.
 using Route = std::vector<Step>;
 
-/// Route through this number of surfaces in their order, which forms the image.
+/// Route through all surfaces in their order, which forms the image.
 [[nodiscard]] Route direct_route(std::size_t surfaces);
 
-/// Route of light that one surface reflects back and an earlier one forwards again.
+/// Light that one surface reflects back and an earlier one forwards again.
 struct Ghost {
-  std::size_t first;   ///< Index of the surface of the first reflection, at least 1.
-  std::size_t second;  ///< Index of the surface of the second reflection, less than `first`.
+  std::size_t first;   ///< Surface of the first reflection, at least 1.
+  std::size_t second;  ///< Surface of the second reflection, less than `first`.
   double reflectance;  ///< Product of both reflectances at normal incidence, averaged over the wavelengths.
 };
-/// Route of a ghost through a lens with this number of surfaces.
 [[nodiscard]] Route route_of(const Ghost& ghost, std::size_t surfaces);
 
 /// All ghosts of two reflections at surfaces with a coating or a change of index, ordered by `first`, then by
@@ -45,8 +44,7 @@ struct GhostFocus {
   /// on the route; infinite if nothing limits it.
   double diameter_mm;
 };
-/// Finds the image of the object on the axis by a paraxial y-nu trace, in which a reflection reverses the
-/// sign of the index [Welford1986].
+/// Uses a paraxial y-nu trace, in which a reflection reverses the sign of the index [Welford1986].
 [[nodiscard]] GhostFocus ghost_focus(const SystemAt& at, const Ghost& ghost, double stop_radius_mm);
 
 }  // namespace abbe::lens

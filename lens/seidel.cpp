@@ -66,8 +66,8 @@ Seidel& Seidel::operator+=(const Seidel& other) {
 SeidelSums seidel_sums(const SystemAt& at, const SystemAt& blue, const SystemAt& red, double marginal_mm,
                        double field) {
   const auto& distance = at.system->object_distance_mm;
-  const ParaxialRay marginal{marginal_mm, distance ? marginal_mm / *distance : 0};
-  const ParaxialRay chief = paraxial_chief_ray(at, field);
+  const ParaxialHit marginal{marginal_mm, distance ? marginal_mm / *distance : 0};
+  const ParaxialHit chief = paraxial_chief_ray(at, field);
   const auto hits = paraxial_trace(at, marginal.y, marginal.u);
   const auto chief_hits = paraxial_trace(at, chief.y, chief.u);
   const double lagrange = at.n[0] * (marginal.u * chief.y - chief.u * marginal.y);

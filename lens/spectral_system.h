@@ -65,9 +65,9 @@ struct BasicImageRay {
   Imath::Vec2<Real> point;      ///< Position (x, y) in the image plane [mm].
   Imath::Vec3<Real> direction;  ///< Unit vector along which the light travels.
   Real transmittance;  ///< Fraction of the power of unpolarised light left by surfaces and glass, in [0, 1].
-  Imath::Vec3<Real> last;    ///< Point on the last surface, from which the ray comes [mm].
-  Imath::Vec3<Real> first;   ///< Field `UnpolarisedFields::first` at the image, without absorption in glass.
-  Imath::Vec3<Real> second;  ///< Field `UnpolarisedFields::second` at the image, without absorption in glass.
+  Imath::Vec3<Real> last;  ///< Point on the last surface, from which the ray comes [mm].
+  /// `UnpolarisedFields` at the image, without absorption in glass.
+  Imath::Vec3<Real> first, second;
 };
 using ImageRay = BasicImageRay<double>;
 
@@ -78,7 +78,6 @@ struct BasicObjectRay {
   BasicRay<Real> ray;         ///< Starts at the first surface and travels towards -z.
 };
 
-/// A ray of monochromatic light.
 struct ColouredRay {
   Ray ray;
   double wavelength_nm;
@@ -124,14 +123,13 @@ class SpectralSystem {
   /// scenes. On the direct route, the error at the image is below 5e-5 mm.
   [[nodiscard]] BasicImageRay<Floats> to_image(const std::array<PacketRay, 2>& rays,
                                                const Route& route) const;
-  /// Traces a ray from the image, which travels towards -z, backwards along the route to object space.
-  /// Applies clear apertures; nothing if it does not arrive. The result is that of `BasicObjectRay::ray`.
+  /// Traces a ray from the image towards -z, backwards along the route to object space
+  /// (`BasicObjectRay::ray`). Applies clear apertures; nothing if it does not arrive.
   [[nodiscard]] std::optional<Ray> to_object(const Ray& ray, double wavelength_nm, const Route& route) const;
   [[nodiscard]] std::optional<Ray> to_object(const Ray& ray, double wavelength_nm) const {
     return to_object(ray, wavelength_nm, direct_);
   }
-  /// Traces many rays backwards along the direct route, several at once. Results are in the order of the
-  /// rays; nothing for rays that do not arrive.
+  /// Traces many rays along the direct route, several at once.
   [[nodiscard]] std::vector<std::optional<Ray>> to_object(std::span<const ColouredRay> rays) const;
   /// Position at the stop of a ray from the image towards -z, in radii of the stop from its center. Ignores
   /// clear apertures; nothing if it does not arrive at the stop.

@@ -8,6 +8,8 @@
 namespace abbe::lens {
 namespace {
 
+using V2d = Imath::V2d;
+
 struct Mean {
   double weight = 0;
   V2d point{0, 0};
@@ -32,8 +34,6 @@ Mean mean_of(std::span<const Spot> spots) {
 constexpr int kFocusCells = 48;  // across a beam
 
 }  // namespace
-
-using V2d = Imath::V2d;
 
 Spot spot(const Beam& beam, double field, int side) {
   const SystemAt& at = beam.at();

@@ -45,7 +45,7 @@ struct SpotSize {
   double rms_mm;        ///< Root of the mean square distance from the centroid.
   double largest_mm;    ///< Largest distance from the centroid.
 };
-/// Size of spots together; nothing without rays.
+/// Nothing without rays.
 [[nodiscard]] std::optional<SpotSize> size_of(std::span<const Spot> spots);
 
 /// Displacement of the image plane towards +z [mm] that minimises the sum of the mean squares of groups of
@@ -63,9 +63,8 @@ struct SpotSize {
 /// without rays and powers.
 [[nodiscard]] std::vector<std::vector<Spot>> all_spots(const System& system, double stop_radius_mm, int side);
 
-/// Displacement of the image plane towards +z [mm] that minimises the mean square radius of the spots of all
-/// fields. The spots of a field at all wavelengths have a common centroid. Nothing if the rays of every field
-/// are parallel or missing. Throws Error{scene} like `stop_radius`.
+/// `best_focus` of the spots of all fields and wavelengths, grouped by field. Throws Error{scene} like
+/// `stop_radius`.
 [[nodiscard]] std::optional<double> best_focus(const System& system);
 
 }  // namespace abbe::lens

@@ -24,14 +24,8 @@ bool Surface::displaced() const {
   return decenter_mm != Imath::V2d(0, 0) || tilt_deg != Imath::V2d(0, 0);
 }
 
-double System::vertex_z(std::size_t surface) const {
-  double z = 0;
-  for (std::size_t i = 0; i < surface; ++i) z += surfaces[i].thickness_mm;
-  return z;
-}
-
 bool System::displaced() const {
-  return std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.displaced(); });
+  return std::ranges::any_of(surfaces, &Surface::displaced);
 }
 
 System with_round_stop(System system) {

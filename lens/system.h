@@ -78,9 +78,7 @@ struct System {
   std::optional<double> set_at_nm{};
 
   [[nodiscard]] double primary_nm() const { return wavelengths_nm[primary]; }
-  /// Position z of a vertex [mm]; `surface` equal to the number of surfaces gives that of the image.
-  [[nodiscard]] double vertex_z(std::size_t surface) const;
-  [[nodiscard]] bool displaced() const;  ///< True if any surface is decentered or tilted.
+  [[nodiscard]] bool displaced() const;  ///< True if any surface is.
 };
 
 /// The system without blades, so that its stop is round.

@@ -220,6 +220,7 @@ template class UnpolarisedFields<double>;
 template class UnpolarisedFields<Floats>;
 
 RayPath trace(const SystemAt& at, const Ray& ray, Apertures apertures, std::size_t surfaces) {
+  surfaces = std::min(surfaces, at.size());
   RayPath path;
   path.last = ray;
   path.hits.reserve(surfaces);
@@ -241,10 +242,6 @@ RayPath trace(const SystemAt& at, const Ray& ray, Apertures apertures, std::size
   path.last_length_mm = (at.vertex_z.back() - path.last.origin.z) / path.last.direction.z;
   path.last.origin += path.last_length_mm * path.last.direction;
   return path;
-}
-
-RayPath trace(const SystemAt& at, const Ray& ray, Apertures apertures) {
-  return trace(at, ray, apertures, at.size());
 }
 
 V3d local_point(const SystemAt& at, std::size_t surface, const V3d& point) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "lens/route.h"
@@ -58,7 +59,7 @@ template <typename Real>
 /// the medium from which it arrives.
 [[nodiscard]] FresnelPower<double> surface_power(const SurfaceBetween<double>& at, double wavelength_nm,
                                                  double cos_i, bool forwards);
-/// Reflectance and transmittance in each lane of two packets, computed in double precision.
+/// Computes each lane of two packets in double precision.
 [[nodiscard]] FresnelPower<Floats> surface_power(const SurfaceBetween<Floats>& at,
                                                  const Floats& wavelengths_nm, const Floats& cos_i,
                                                  bool forwards);
@@ -87,10 +88,6 @@ class UnpolarisedFields {
   Imath::Vec3<Real> second_;
 };
 
-}  // namespace abbe::lens
-
-namespace abbe::lens {
-
 /// Reason for the end of a ray.
 enum class RayEnd {
   image,             ///< It passed all traced surfaces, and arrived in the image plane if these are all.
@@ -116,10 +113,9 @@ struct RayPath {
 };
 
 /// Traces a ray, which travels towards +z and may start anywhere on its line, by refraction [Welford1986]. It
-/// passes the first `surfaces` surfaces, and continues to the image if these are all. The overload without
-/// `surfaces` traces all.
-[[nodiscard]] RayPath trace(const SystemAt& at, const Ray& ray, Apertures apertures, std::size_t surfaces);
-[[nodiscard]] RayPath trace(const SystemAt& at, const Ray& ray, Apertures apertures);
+/// passes the first `surfaces` surfaces, by default all, and continues to the image if these are all.
+[[nodiscard]] RayPath trace(const SystemAt& at, const Ray& ray, Apertures apertures,
+                            std::size_t surfaces = std::numeric_limits<std::size_t>::max());
 
 /// Converts a point [mm] from the coordinates of the lens to those of a surface: its vertex is the origin,
 /// its axis z.

@@ -18,32 +18,30 @@
 
 namespace abbe {
 
+/// A model that scatters into more than single directions.
+template <typename Model>
+concept SpreadModel = requires(const Model& model, const Imath::V3f& w) {
+  { model.eval(w, w, TransportMode::radiance) } -> std::same_as<SampledSpectrum>;
+  { model.pdf(w, w) } -> std::same_as<SampledSpectrum>;
+};
+
+/// A model that scatters into single directions.
+template <typename Model>
+concept DeltaModel = requires(const Model& model, const Imath::V3f& w) {
+  { model.delta_power(w, true) } -> std::same_as<SampledSpectrum>;
+};
+
 /// Interface of the scattering models. Directions are unit vectors in the local frame of `BsdfSample`. No
 /// function throws. The free functions of these names below describe the functions.
-/// - Required: `sample` and two constants. `kScatters` is true if the model scatters into more than single
-///   directions; it then has `eval` and `pdf`. `kDelta` is true if it scatters into single directions; it
-///   then has `delta_power` and `mueller`.
-/// - Optional functions, with defaults: `index_inside` (1), `delta_probability` (1 if `kDelta`, else 0) and
-///   `mueller` (depolarises).
+/// - Optional functions, with defaults: `index_inside` (1), `mueller` (depolarises) and `delta_probability`
+///   (1 for a `DeltaModel`, else 0).
 /// - Optional constants, declared only if true: `kGlossy` if all lobes are glossy, `kBothSides` if it
-/// scatters
-///   to both sides, and `kAbsorbingFilms` if its delta lobes may cross absorbing films.
+///   scatters to both sides, and `kAbsorbingFilms` if its delta lobes may cross absorbing films.
 template <typename Model>
 concept BsdfModel = requires(const Model& model, const Imath::V3f& w, const BsdfRandom& u) {
+  requires SpreadModel<Model> || DeltaModel<Model>;
   { model.sample(w, u, 0, TransportMode::radiance) } -> std::same_as<std::optional<BsdfSample>>;
-  { Model::kScatters } -> std::same_as<const bool&>;
-  { Model::kDelta } -> std::same_as<const bool&>;
-}
-&&(Model::kScatters || Model::kDelta) &&
-    (!Model::kScatters ||
-     requires(const Model& model, const Imath::V3f& w) {
-       { model.eval(w, w, TransportMode::radiance) } -> std::same_as<SampledSpectrum>;
-       { model.pdf(w, w) } -> std::same_as<SampledSpectrum>;
-     }) &&
-    (!Model::kDelta || requires(const Model& model, const Imath::V3f& w, std::optional<int> lane) {
-      { model.delta_power(w, true) } -> std::same_as<SampledSpectrum>;
-      { model.mueller(w, w, true, lane) } -> std::same_as<std::optional<MuellerMatrix>>;
-    });
+};
 
 /// The closed list of scattering models, evaluated at a packet of wavelengths. A new model is a struct in
 /// `materials/bsdf/` and an entry here; the statistical tests iterate the list.
@@ -54,7 +52,6 @@ using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDiel
                           PolariserBsdf, WavePlateBsdf, DepolariserBsdf>;
 static_assert(sizeof(Bsdf) <= 4 * sizeof(SampledSpectrum));  // every path vertex stores one
 
-/// True if `List` is a variant whose types all satisfy `BsdfModel`.
 template <typename List>
 inline constexpr bool kAllBsdfModels = false;
 template <typename... Models>
@@ -82,7 +79,7 @@ template <typename Visitor>
                                           TransportMode mode) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
-        if constexpr (Model::kScatters)
+        if constexpr (SpreadModel<Model>)
           return model.eval(wo, wi, mode);
         else
           return SampledSpectrum();
@@ -95,7 +92,7 @@ template <typename Visitor>
 [[nodiscard]] inline SampledSpectrum pdf(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
-        if constexpr (Model::kScatters)
+        if constexpr (SpreadModel<Model>)
           return model.pdf(wo, wi);
         else
           return SampledSpectrum();
@@ -112,7 +109,7 @@ template <typename Visitor>
         if constexpr (requires { model.delta_probability(wo); })
           return model.delta_probability(wo);
         else
-          return SampledSpectrum(Model::kDelta ? 1.0F : 0.0F);
+          return SampledSpectrum(DeltaModel<Model> ? 1.0F : 0.0F);
       },
       bsdf);
 }
@@ -123,7 +120,7 @@ template <typename Visitor>
 [[nodiscard]] inline SampledSpectrum delta_power(const Bsdf& bsdf, const Imath::V3f& wo, bool through) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
-        if constexpr (Model::kDelta)
+        if constexpr (DeltaModel<Model>)
           return model.delta_power(wo, through);
         else
           return SampledSpectrum();
@@ -151,7 +148,7 @@ template <typename Visitor>
 
 /// True if the model scatters into more than single directions, so that next-event estimation can contribute.
 [[nodiscard]] inline bool scatters(const Bsdf& bsdf) {
-  return visit_model([]<typename Model>(const Model&) { return Model::kScatters; }, bsdf);
+  return visit_model([]<typename Model>(const Model&) { return SpreadModel<Model>; }, bsdf);
 }
 
 /// Index behind a surface that light enters, relative to the outside, at wavelength sample `lane`; 1 for
@@ -171,7 +168,7 @@ template <typename Visitor>
 [[nodiscard]] inline bool refracts_smoothly(const Bsdf& bsdf) {
   return visit_model(
       []<typename Model>(const Model&) {
-        return Model::kDelta && requires(const Model& model) {
+        return DeltaModel<Model> && requires(const Model& model) {
           model.index_inside(0);
         };
       },

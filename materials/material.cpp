@@ -1,8 +1,6 @@
 #include "materials/material.h"
 
 #include <cmath>
-#include <concepts>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,15 +9,15 @@
 namespace abbe {
 namespace {
 
-// The model's answer to `ask`, or `otherwise` if it has no such member function.
+// The model's answer to `ask`, or a value-initialised one if it has no such member function.
 template <typename T, typename Ask>
-T answer(const Material& material, Ask ask, T otherwise) {
+T answer(const Material& material, Ask ask) {
   return std::visit(
       [&]<typename Model>(const Model& model) -> T {
         if constexpr (std::invocable<Ask, const Model&>)
           return ask(model);
         else
-          return otherwise;
+          return T{};
       },
       material.model);
 }
@@ -35,12 +33,9 @@ Lobes lobes(const Material& material) {
 }
 
 bool needs_coordinates(const Material& material) {
-  return material.relief || answer(
-                                material,
-                                [](const auto& model) -> decltype(model.needs_coordinates()) {
-                                  return model.needs_coordinates();
-                                },
-                                false);
+  return material.relief || answer<bool>(material, [](const auto& m) -> decltype(m.needs_coordinates()) {
+           return m.needs_coordinates();
+         });
 }
 
 bool is_dispersive(const Material& material) {
@@ -49,49 +44,39 @@ bool is_dispersive(const Material& material) {
 }
 
 bool depends_on_outside(const Material& material) {
-  return answer(
-      material,
-      [](const auto& model) -> decltype(model.depends_on_outside()) { return model.depends_on_outside(); },
-      false);
+  return answer<bool>(
+      material, [](const auto& m) -> decltype(m.depends_on_outside()) { return m.depends_on_outside(); });
 }
 
 bool opaque(const Material& material) {
-  return answer(
-      material, [](const auto& model) -> decltype(model.opaque()) { return model.opaque(); }, false);
+  return answer<bool>(material, [](const auto& m) -> decltype(m.opaque()) { return m.opaque(); });
 }
 
 bool preserves_polarisation(const Material& material) {
-  return answer(
-      material,
-      [](const auto& model) -> decltype(model.preserves_polarisation()) {
-        return model.preserves_polarisation();
-      },
-      false);
+  return answer<bool>(material, [](const auto& m) -> decltype(m.preserves_polarisation()) {
+    return m.preserves_polarisation();
+  });
 }
 
 bool polarises(const Material& material) {
-  return answer(
-      material, [](const auto& model) -> decltype(model.polarises()) { return model.polarises(); },
-      lobes(material).delta && !preserves_polarisation(material));
+  return answer<std::optional<bool>>(material,
+                                     [](const auto& m) -> decltype(m.polarises()) { return m.polarises(); })
+      .value_or(lobes(material).delta && !preserves_polarisation(material));
 }
 
 const RefractiveIndex* interior_index(const Material& material) {
-  return answer(
-      material, [](const auto& model) -> decltype(model.interior_index()) { return model.interior_index(); },
-      static_cast<const RefractiveIndex*>(nullptr));
+  return answer<const RefractiveIndex*>(
+      material, [](const auto& m) -> decltype(m.interior_index()) { return m.interior_index(); });
 }
 
 const Medium* medium(const Material& material) {
-  return answer(
-      material, [](const auto& model) -> decltype(model.medium()) { return model.medium(); },
-      static_cast<const Medium*>(nullptr));
+  return answer<const Medium*>(material, [](const auto& m) -> decltype(m.medium()) { return m.medium(); });
 }
 
 std::optional<std::string> transparency_fault(const Material& material, double wavelength_nm) {
   constexpr double kTolerance = 1e-4;
-  const RefractiveIndex* sheet = answer(
-      material, [](const auto& model) -> decltype(model.clear_index()) { return model.clear_index(); },
-      static_cast<const RefractiveIndex*>(nullptr));
+  const auto* sheet = answer<const RefractiveIndex*>(
+      material, [](const auto& m) -> decltype(m.clear_index()) { return m.clear_index(); });
   const RefractiveIndex* index = sheet != nullptr ? sheet : interior_index(material);
   if (index == nullptr) return std::nullopt;
   const double n = index->n(wavelength_nm);
@@ -106,15 +91,13 @@ std::optional<std::string> transparency_fault(const Material& material, double w
 }
 
 std::vector<IndexUse> indices(const Material& material) {
-  return answer(
-      material, [](const auto& model) -> decltype(model.indices()) { return model.indices(); },
-      std::vector<IndexUse>());
+  return answer<std::vector<IndexUse>>(material,
+                                       [](const auto& m) -> decltype(m.indices()) { return m.indices(); });
 }
 
 std::size_t texture_bytes(const Material& material) {
-  std::size_t bytes = answer(
-      material, [](const auto& model) -> decltype(model.texture_bytes()) { return model.texture_bytes(); },
-      std::size_t{0});
+  auto bytes = answer<std::size_t>(
+      material, [](const auto& m) -> decltype(m.texture_bytes()) { return m.texture_bytes(); });
   if (material.relief)
     bytes += std::visit([](const auto& map) { return map.image.memory_bytes(); }, *material.relief);
   return bytes;
@@ -129,30 +112,14 @@ bool is_boundary(const Material& material) {
 }
 
 std::optional<FresnelPower<double>> smooth_power(const Material& material, const SmoothLookup& at) {
-  return std::visit(
-      [&at]<typename Model>(const Model& model) -> std::optional<FresnelPower<double>> {
-        if constexpr (requires { model.smooth_power(at); }) {
-          return model.smooth_power(at);
-        } else {
-          static_assert(!Model::lobes().delta);
-          return std::nullopt;
-        }
-      },
-      material.model);
+  return answer<std::optional<FresnelPower<double>>>(
+      material, [&](const auto& m) -> decltype(m.smooth_power(at)) { return m.smooth_power(at); });
 }
 
 std::optional<SmoothMueller> smooth_mueller(const Material& material, const SmoothLookup& at) {
   if (!smooth_power(material, at)) return std::nullopt;
-  return std::visit(
-      [&at]<typename Model>(const Model& model) -> std::optional<SmoothMueller> {
-        if constexpr (requires { model.smooth_mueller(at); }) {
-          return model.smooth_mueller(at);
-        } else {
-          static_assert(!Model::lobes().delta);
-          return std::nullopt;
-        }
-      },
-      material.model);
+  return answer<std::optional<SmoothMueller>>(
+      material, [&](const auto& m) -> decltype(m.smooth_mueller(at)) { return m.smooth_mueller(at); });
 }
 
 }  // namespace abbe

@@ -14,7 +14,6 @@
 
 namespace abbe {
 
-/// The scattering model that `bsdf` of a `SurfaceModel` returns.
 template <BsdfModel Model>
 [[nodiscard]] Bsdf as_bsdf(const Model& model) {
   return model;
@@ -25,26 +24,24 @@ template <BsdfModel... Models>
 }
 
 /// Interface of the models in `MaterialModel`. The free functions of these names below describe most of them.
-/// - Required: `bsdf`, the scattering at a lookup, which may refer to the model: a `BsdfModel` or a variant
-/// of
-///   several. `lobes`, its kinds of lobes.
-/// - Required if it has delta lobes: `smooth_power`, and `smooth_mueller`, which is called only if that is
-/// not
-///   empty.
-/// - Optional, false if absent: `needs_coordinates`, `depends_on_outside`, `opaque`,
-/// `preserves_polarisation`.
+/// - Required: `lobes`, and `bsdf`, the scattering at a lookup, which may refer to the model. It is a
+///   `BsdfModel` or a variant of several.
+/// - Required if it has delta lobes: `smooth_power`, and `smooth_mueller`, called only if that is not empty.
+/// - Optional, false if absent: `needs_coordinates`, `depends_on_outside`, `opaque` and
+///   `preserves_polarisation`.
 /// - Optional: `polarises`; if absent, true for delta lobes that do not preserve polarisation.
 /// - Optional, nullptr or empty if absent: `interior_index`; `clear_index`, the index of a sheet that light
-/// does
-///   not enter but crosses; `medium`, which absorbs or scatters in addition to `interior_index`; `indices`;
-///   `texture_bytes`.
+///   does not enter but crosses; `medium`; `indices`; `texture_bytes`.
 template <typename Model>
-concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at) {
+concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at, const SmoothLookup& ray) {
   { as_bsdf(model.bsdf(at)) } -> std::same_as<Bsdf>;
   { model.lobes() } -> std::same_as<Lobes>;
+  requires requires {
+    model.smooth_power(ray);
+    model.smooth_mueller(ray);
+  } || !Model::lobes().delta;
 };
 
-/// The closed list of material models.
 using MaterialModel =
     std::variant<DiffuseMaterial, DielectricMaterial, FilmMaterial, ConductorMaterial,
                  RoughDielectricMaterial, RoughConductorMaterial, MediumMaterial, CoatedDiffuseMaterial,
@@ -52,7 +49,6 @@ using MaterialModel =
                  PrincipledMaterial, CosinePowerMaterial, PhongMaterial, RetroreflectorMaterial,
                  PolariserMaterial, WavePlateMaterial, DepolariserMaterial>;
 
-/// True if `List` is a variant whose types all satisfy `SurfaceModel`.
 template <typename List>
 inline constexpr bool kAllSurfaceModels = false;
 template <typename... Models>
@@ -86,9 +82,8 @@ struct Material {
 [[nodiscard]] const RefractiveIndex* interior_index(const Material& material);
 /// The medium inside that absorbs or scatters in addition to the absorption of that index, or nullptr.
 [[nodiscard]] const Medium* medium(const Material& material);
-/// An error message if the renderer may not treat a dielectric or thin glass as clear at a wavelength [nm].
-/// The renderer uses n alone for its reflectance; the message is given if k changes the reflectance along the
-/// normal by more than 1e-4. Empty otherwise and for other materials.
+/// An error message for a dielectric or thin glass whose k changes the reflectance along the normal by more
+/// than 1e-4 at a wavelength [nm]; the renderer uses n alone. Empty otherwise and for other materials.
 [[nodiscard]] std::optional<std::string> transparency_fault(const Material& material, double wavelength_nm);
 /// True if the surface may polarise unpolarised light.
 [[nodiscard]] bool polarises(const Material& material);
@@ -97,9 +92,8 @@ struct Material {
 [[nodiscard]] bool preserves_polarisation(const Material& material);
 /// True if no light passes through the surface.
 [[nodiscard]] bool opaque(const Material& material);
-/// All refractive indices that the material uses, including those of coatings. Empty for a mixture, because
-/// the scene lists its components as materials of their own. The result refers to the material, which must
-/// outlive it.
+/// All refractive indices that the material uses, including those of coatings; the material must outlive
+/// them. Empty for a mixture, because the scene lists its components as materials of their own.
 [[nodiscard]] std::vector<IndexUse> indices(const Material& material);
 /// Size of the material's images in bytes, including a relief.
 [[nodiscard]] std::size_t texture_bytes(const Material& material);

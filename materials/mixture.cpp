@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "materials/bsdf.h"
-#include "materials/interface/mueller.h"
 #include "materials/material.h"
 
 namespace abbe {
@@ -37,6 +36,10 @@ Choice choose(const MixtureMaterial& material, const SampledSpectrum& wavelength
   return choice;
 }
 
+const Material& material_of(const MixtureMaterial::Component& component) {
+  return *component.material;
+}
+
 }  // namespace
 
 Lobes MixtureMaterial::lobes() const {
@@ -49,30 +52,23 @@ Lobes MixtureMaterial::lobes() const {
 }
 
 bool MixtureMaterial::needs_coordinates() const {
-  return std::any_of(components.begin(), components.end(),
-                     [](const Component& component) { return abbe::needs_coordinates(*component.material); });
+  return std::ranges::any_of(components, abbe::needs_coordinates, material_of);
 }
 
 bool MixtureMaterial::depends_on_outside() const {
-  return std::any_of(components.begin(), components.end(), [](const Component& component) {
-    return abbe::depends_on_outside(*component.material);
-  });
+  return std::ranges::any_of(components, abbe::depends_on_outside, material_of);
 }
 
 bool MixtureMaterial::polarises() const {
-  return std::any_of(components.begin(), components.end(),
-                     [](const Component& component) { return abbe::polarises(*component.material); });
+  return std::ranges::any_of(components, abbe::polarises, material_of);
 }
 
 bool MixtureMaterial::preserves_polarisation() const {
-  return std::any_of(components.begin(), components.end(), [](const Component& component) {
-    return abbe::preserves_polarisation(*component.material);
-  });
+  return std::ranges::any_of(components, abbe::preserves_polarisation, material_of);
 }
 
 bool MixtureMaterial::opaque() const {
-  return std::all_of(components.begin(), components.end(),
-                     [](const Component& component) { return abbe::opaque(*component.material); });
+  return std::ranges::all_of(components, abbe::opaque, material_of);
 }
 
 std::optional<BsdfSample> MixtureBsdf::sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
@@ -98,34 +94,31 @@ std::optional<BsdfSample> MixtureBsdf::sample(const Imath::V3f& wo, const BsdfRa
   return s;
 }
 
-SampledSpectrum MixtureBsdf::eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const {
-  SampledSpectrum f;
+// The sum of `quantity` of the components' models, weighted by the components.
+template <typename Quantity>
+SampledSpectrum MixtureBsdf::weighted(Quantity quantity) const {
+  SampledSpectrum sum;
   for (const MixtureMaterial::Component& component : material_->components)
-    f += component.weight(wavelengths_nm_) * abbe::eval(make_bsdf(*component.material, at()), wo, wi, mode);
-  return f;
+    sum += component.weight(wavelengths_nm_) * quantity(make_bsdf(*component.material, at()));
+  return sum;
+}
+
+SampledSpectrum MixtureBsdf::eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const {
+  return weighted([&](const Bsdf& part) { return abbe::eval(part, wo, wi, mode); });
 }
 
 SampledSpectrum MixtureBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& wi) const {
-  SampledSpectrum weighted;
-  for (const MixtureMaterial::Component& component : material_->components)
-    weighted += component.weight(wavelengths_nm_) * abbe::pdf(make_bsdf(*component.material, at()), wo, wi);
-  return quotient(weighted, total_weight(*material_, wavelengths_nm_));
+  return quotient(weighted([&](const Bsdf& part) { return abbe::pdf(part, wo, wi); }),
+                  total_weight(*material_, wavelengths_nm_));
 }
 
 SampledSpectrum MixtureBsdf::delta_probability(const Imath::V3f& wo) const {
-  SampledSpectrum weighted;
-  for (const MixtureMaterial::Component& component : material_->components)
-    weighted +=
-        component.weight(wavelengths_nm_) * abbe::delta_probability(make_bsdf(*component.material, at()), wo);
-  return quotient(weighted, total_weight(*material_, wavelengths_nm_));
+  return quotient(weighted([&](const Bsdf& part) { return abbe::delta_probability(part, wo); }),
+                  total_weight(*material_, wavelengths_nm_));
 }
 
 SampledSpectrum MixtureBsdf::delta_power(const Imath::V3f& wo, bool through) const {
-  SampledSpectrum power;
-  for (const MixtureMaterial::Component& component : material_->components)
-    power += component.weight(wavelengths_nm_) *
-             abbe::delta_power(make_bsdf(*component.material, at()), wo, through);
-  return power;
+  return weighted([&](const Bsdf& part) { return abbe::delta_power(part, wo, through); });
 }
 
 // A transmitted direction has no refraction scale, because light does not enter any component.

@@ -21,8 +21,6 @@ struct MixtureMaterial;
 /// Where the weights sum to less than 1, the rest of the light is absorbed.
 class MixtureBsdf {
  public:
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = true;
   static constexpr bool kAbsorbingFilms = true;
 
   MixtureBsdf(const MixtureMaterial& material, const SurfaceLookup& at)
@@ -41,6 +39,8 @@ class MixtureBsdf {
 
  private:
   [[nodiscard]] SurfaceLookup at() const { return {wavelengths_nm_, uv_, outside_}; }
+  template <typename Quantity>
+  [[nodiscard]] SampledSpectrum weighted(Quantity quantity) const;
 
   const MixtureMaterial* material_;
   SampledSpectrum wavelengths_nm_;
@@ -51,9 +51,8 @@ class MixtureBsdf {
 struct Material;
 
 /// Several materials side by side, too fine to be resolved: f = sum_i w_i f_i. No component is a mixture, and
-/// light enters none. `SurfaceModel` describes the member functions.
+/// light enters none.
 struct MixtureMaterial {
-  /// A material with its weight.
   struct Component {
     Curve weight;  ///< In [0, 1]; the sum over the components is at most 1 at every wavelength.
     std::shared_ptr<const Material> material;

@@ -26,7 +26,6 @@
 namespace abbe {
 namespace {
 
-// Throws Error{input} if the images differ in size.
 void require_same_size(const Image& image, const Image& reference) {
   if (image.width != reference.width || image.height != reference.height)
     throw Error(ErrorCode::input, "",
@@ -64,12 +63,10 @@ std::vector<std::string> common_planes(const Image& image, const Image& referenc
   return planes;
 }
 
-// Planes that only the first image has, without the alpha of pictures.
-std::vector<std::string> planes_without(const Image& image, const Image& other) {
-  std::vector<std::string> planes = intensities(plane_names(image));
-  std::erase_if(planes,
-                [&](const std::string& plane) { return plane == "A" || other.find(plane) != nullptr; });
-  return planes;
+// Appends the planes that only the first image has, without the alpha of pictures.
+void append_planes_without(const Image& image, const Image& other, std::vector<std::string>& to) {
+  for (const std::string& plane : intensities(plane_names(image)))
+    if (plane != "A" && other.find(plane) == nullptr) to.push_back(plane);
 }
 
 void require_same_unit(const Image& image, const Image& reference, const std::string& plane) {
@@ -196,7 +193,6 @@ FilmColors colors_by_matrix(const Image& image, const std::vector<std::string>& 
   return {channels, parse_matrix3(matrix->second), true, white};
 }
 
-// Mean and maximum of some numbers; 0 without numbers.
 struct MeanAndMax {
   double sum = 0;
   double max = 0;
@@ -215,17 +211,6 @@ double between_planes(double a_deg, double b_deg) {
   return std::min(difference, 180 - difference);
 }
 
-struct DifferenceStatistics {
-  MeanAndMax degree;
-  MeanAndMax angle_deg;
-
-  void add(const PolarisationFigures& image, const PolarisationFigures& reference) {
-    if (reference.degree > kPolarised) degree.add(std::abs(image.degree - reference.degree));
-    if (reference.linear_degree > kPolarised)
-      angle_deg.add(between_planes(image.angle_deg, reference.angle_deg));
-  }
-};
-
 }  // namespace
 
 double percentile(std::vector<double> values, double quantile) {
@@ -243,9 +228,9 @@ std::optional<std::string> channel_with_undeclared_unit(const Image& image, cons
 }
 
 std::optional<std::string> uncompared_channels(const Image& image, const Image& reference) {
-  std::vector<std::string> alone = planes_without(image, reference);
-  const std::vector<std::string> of_reference = planes_without(reference, image);
-  alone.insert(alone.end(), of_reference.begin(), of_reference.end());
+  std::vector<std::string> alone;
+  append_planes_without(image, reference, alone);
+  append_planes_without(reference, image, alone);
   if (alone.empty()) return std::nullopt;
   return fmt::format("channels that only one of the images has are not compared: {}", fmt::join(alone, ", "));
 }
@@ -288,9 +273,7 @@ double rel_mse(const Image& image, const Image& reference, const ErrorMeasure& m
   std::vector<Term> all = terms(pairs, means(pairs).reference, measure);
   const auto trimmed_begin =
       all.end() - static_cast<std::ptrdiff_t>(measure.trim * static_cast<double>(all.size()));
-  if (trimmed_begin != all.end())
-    std::nth_element(all.begin(), trimmed_begin, all.end(),
-                     [](const Term& a, const Term& b) { return a.quotient < b.quotient; });
+  if (trimmed_begin != all.end()) std::ranges::nth_element(all, trimmed_begin, {}, &Term::quotient);
   const double sum = std::accumulate(all.begin(), trimmed_begin, 0.0,
                                      [](double total, const Term& t) { return total + t.added; });
   return sum / static_cast<double>(trimmed_begin - all.begin());
@@ -319,7 +302,7 @@ std::optional<ColorDifference> color_difference(const Image& image, const Image&
   std::vector<double> differences;
   for (std::size_t i = 0; i < x.size(); ++i) differences.push_back(delta_e(formula, lab(r[i]), lab(x[i])));
   const double total = std::accumulate(differences.begin(), differences.end(), 0.0);
-  const double largest = *std::max_element(differences.begin(), differences.end());
+  const double largest = std::ranges::max(differences);
   const auto count = static_cast<double>(differences.size());
   const double p95 = percentile(differences, 0.95);
   return ColorDifference{total / count, p95, largest, std::move(differences)};
@@ -376,8 +359,7 @@ FilmColors film_colors(const Image& image) {
   const std::vector<std::string> observer{"X", "Y", "Z"};
   const std::vector<std::string> rgb{"R", "G", "B"};
   const auto white = recorded_white(image);
-  if (std::all_of(observer.begin(), observer.end(),
-                  [&](const std::string& name) { return image.find(name) != nullptr; })) {
+  if (image.find("X") != nullptr && image.find("Y") != nullptr && image.find("Z") != nullptr) {
     if (!may_hold_tristimulus_values(image)) return colors_by_matrix(image, observer);
     return {observer, Matrix3(), false, white};
   }
@@ -389,20 +371,23 @@ FilmColors film_colors(const Image& image) {
 
 std::optional<PolarisationDifference> polarisation_difference(const Image& image, const Image& reference) {
   const std::vector<StokesPlanes> own = stokes_planes(image);
-  DifferenceStatistics statistics;
+  MeanAndMax degree;
+  MeanAndMax angle_deg;
   double compared = 0;
   for (const StokesPlanes& planes : stokes_planes(reference)) {
-    const auto same = std::find_if(own.begin(), own.end(), [&planes](const StokesPlanes& other) {
-      return other.channel == planes.channel;
-    });
+    const auto same = std::ranges::find(own, planes.channel, &StokesPlanes::channel);
     if (same == own.end()) continue;
-    for (std::size_t pixel = 0; pixel < reference.pixels(); ++pixel)
-      statistics.add(polarisation_of(same->at(pixel)), polarisation_of(planes.at(pixel)));
+    for (std::size_t pixel = 0; pixel < reference.pixels(); ++pixel) {
+      const PolarisationFigures x = polarisation_of(same->at(pixel));
+      const PolarisationFigures r = polarisation_of(planes.at(pixel));
+      if (r.degree > kPolarised) degree.add(std::abs(x.degree - r.degree));
+      if (r.linear_degree > kPolarised) angle_deg.add(between_planes(x.angle_deg, r.angle_deg));
+    }
     compared += static_cast<double>(reference.pixels());
   }
   if (!(compared > 0)) return std::nullopt;
-  return PolarisationDifference{statistics.degree.count / compared, statistics.degree.mean(),
-                                statistics.degree.max, statistics.angle_deg.mean(), statistics.angle_deg.max};
+  return PolarisationDifference{degree.count / compared, degree.mean(), degree.max, angle_deg.mean(),
+                                angle_deg.max};
 }
 
 }  // namespace abbe

@@ -18,9 +18,8 @@ namespace abbe {
 /// films without a common pixel.
 [[nodiscard]] std::vector<Crop> common_areas(const Image& image, const Image& reference);
 
-/// Image of the pixels inside `areas`, with the metadata of `image` except its crop and areas. A single
-/// rectangle retains its shape. The pixels of several are concatenated to one row, area by area and row by
-/// row. There must be at least one area, and all must lie inside the image.
+/// Image of the pixels inside one or more `areas`, with the metadata of `image` except its crop and areas. A
+/// single rectangle retains its shape; the pixels of several become one row, area by area.
 [[nodiscard]] Image extract_areas(const Image& image, std::span<const Crop> areas);
 
 /// Interpretation of an image's colours.
@@ -34,7 +33,7 @@ struct FilmColors {
   std::optional<Chromaticity> white;
 };
 
-/// Determines how the channels of an image are converted to XYZ.
+/// Interpretation of the channels of an image:
 /// - X, Y, Z are tristimulus values, unless `channel.X` records another quantity than a photometric one.
 /// - R, G, B with the attribute `channel.R`, and such other X, Y, Z, are sensor channels. The film's matrix
 ///   `to_xyz_d65` applies, in the order of `sensor_channels`, or of `mosaic_channels` under a mosaic. Without
@@ -44,12 +43,10 @@ struct FilmColors {
 /// Throws Error{input} if the recorded white is malformed.
 [[nodiscard]] FilmColors film_colors(const Image& image);
 
-/// Formulas of colour difference, implemented in `calibration/chart/delta_e.h` and `calibration/metrics/`.
 enum class DeltaE { cie2000, cie94, cie76, cam16_ucs, itp };
-/// Colour difference by one of the formulas. `standard` is the reference colour of CIE94, which is not
-/// symmetric. NaN if a component of a colour is not finite.
-/// CAM16-UCS and ITP take L*a*b* relative to a D65 white. CAM16-UCS assumes surfaces in a booth (the default
-/// `ViewingConditions`), ITP a display with a white of `kReferenceWhite` cd/m^2.
+/// Colour difference by one of the formulas; NaN if a component of a colour is not finite. `standard` is the
+/// reference of CIE94, which is not symmetric. L*a*b* are relative to D65. CAM16-UCS assumes surfaces in a
+/// booth (the default `ViewingConditions`), ITP a display with a white of `kReferenceWhite` cd/m^2.
 [[nodiscard]] double delta_e(DeltaE formula, const Lab& standard, const Lab& sample);
 
 /// Colour differences over the pixels of two images.
@@ -58,29 +55,27 @@ struct ColorDifference {
   std::vector<double> pixels;  ///< Difference of each pixel, row by row.
 };
 
-/// Differences of an image x from a reference r over their common intensity channels. These are the planes of
-/// `plane_names` that both have, without the Stokes components Q, U and V.
+/// Differences of an image x from a reference r over the planes of `plane_names` that both have, without the
+/// Stokes components Q, U and V.
 struct Comparison {
-  double rel_mse;     ///< Result of `rel_mse` with default settings.
+  double rel_mse;     ///< `rel_mse` with default settings.
   double rmse;        ///< Root mean square of x - r, in the unit of the channels.
   double mean_ratio;  ///< Mean of x divided by the mean of r; not finite if the latter is 0.
-  /// CIEDE2000 by `color_difference`; nothing if that returns nothing.
-  std::optional<ColorDifference> color;
+  std::optional<ColorDifference> color;  ///< CIEDE2000 by `color_difference`.
 };
 
-/// Compares two images. `white` [x, y] is that of `color_difference`. Throws Error{input} if the images
-/// differ in size, have no common channel, record different units for one, or contain a value that is not
-/// finite. Also throws the errors of `plane_names` and `color_difference`.
+/// `white` [x, y] is that of `color_difference`. Throws Error{input} if the images differ in size, have no
+/// common channel, record different units for one, or contain a value that is not finite. Also throws the
+/// errors of `plane_names` and `color_difference`.
 [[nodiscard]] Comparison compare_images(const Image& image, const Image& reference,
                                         std::optional<Chromaticity> white = {});
 
-/// First common channel whose unit is recorded in only one of the images; nothing if there is none. The
-/// values of that channel may have different units; files of other renderers record none.
+/// First common channel whose unit only one of the images records; files of other renderers record none.
 [[nodiscard]] std::optional<std::string> channel_with_undeclared_unit(const Image& image,
                                                                       const Image& reference);
 
-/// Note that names the channels which only one of the images has and which are therefore not compared. Empty
-/// if there is none. Variances, auxiliary films and alpha are ignored.
+/// Note that names the channels which only one of the images has; nothing if there is none. Variances,
+/// auxiliary films and alpha are ignored.
 [[nodiscard]] std::optional<std::string> uncompared_channels(const Image& image, const Image& reference);
 
 /// Colour differences of two images of equal size with X, Y, Z or R, G, B, interpreted by `film_colors`.
@@ -99,15 +94,14 @@ struct Comparison {
 /// camera film are adapted from its white to D65, others are not. Throws the errors of `film_colors`.
 [[nodiscard]] std::vector<XYZ> tristimuli(const Image& image);
 
-/// Smallest of `values` that is not less than a fraction `quantile` in (0, 1] of them. There must be at least
-/// one value.
+/// Smallest of one or more `values` that is not less than a fraction `quantile` in (0, 1] of them.
 [[nodiscard]] double percentile(std::vector<double> values, double quantile);
 
 /// Relative error of each pixel, row by row: the square root of the mean over channels of the terms of
 /// `rel_mse` with default settings. Throws Error{input} as `compare_images` does.
 [[nodiscard]] std::vector<double> relative_errors(const Image& image, const Image& reference);
 
-/// Terms that `rel_mse` averages.
+/// Terms of `rel_mse`.
 struct ErrorMeasure {
   double relative = 1;  ///< Weight of r^2 in the denominator.
   /// Weight of m^2 in the denominator. With `relative` 0 and a floor of 1 the result is (RMSE/m)^2.
@@ -115,8 +109,8 @@ struct ErrorMeasure {
   /// Fraction of the values in [0, 1) that is omitted: those with the largest (x - r)^2 per denominator. The
   /// number of omitted values is rounded down.
   double trim = 0;
-  /// Subtract `Variance.*` of the reference from the squared differences. The result is unbiased for
-  /// independent noise and may be negative.
+  /// Subtract `Variance.*` of the reference from the squared differences, which removes the bias of its
+  /// noise.
   bool subtract_variance = false;
 };
 

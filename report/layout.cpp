@@ -48,7 +48,6 @@ Imath::Box3d drawn_box(const Scene& scene) {
   return {box.min - padding, box.max + padding};
 }
 
-// Projection of points in space into the drawing.
 struct Projection {
   DrawingPlane plane;
   Imath::Box3d box;
@@ -123,7 +122,7 @@ std::string shape_elements(const Scene& scene, const Projection& to) {
 std::string light_elements(const Scene& scene, const Projection& to) {
   std::string elements;
   for (const Light& light : scene.lights) {
-    if (light.is<AreaLight>() || light.at_infinity() || is_omitted(scene, light)) continue;
+    if (surface_of(light) || light.at_infinity() || is_omitted(scene, light)) continue;
     const V3d at = central_ray(scene, light)->origin;
     elements += svg_circle(to.x(at), to.y(at), 4, "class=\"lamp\" fill=\"#ffd040\" stroke=\"#b08000\"");
     elements += svg_text(to.x(at) + 7, to.y(at) - 5, light.name, "fill=\"#b08000\" font-size=\"10\"");
@@ -158,16 +157,6 @@ std::string unit_name(double unit_m) {
       {1, "m"}, {1e-2, "cm"}, {1e-3, "mm"}, {1e-6, "um"}, {0.0254, "in"}};
   const auto entry = kNames.find(unit_m);
   return entry == kNames.end() ? "units" : entry->second;
-}
-
-// Scale bar of 1, 2 or 5 times a power of ten of the scene's units, about a fifth of the width.
-std::string scale_bar(const Scene& scene, double scale, double y) {
-  const double ideal_length = kViewWidth / 5 / (scale * scene.unit_m);
-  const double power = std::pow(10, std::floor(std::log10(ideal_length)));
-  const double length = power * (ideal_length >= 5 * power ? 5 : ideal_length >= 2 * power ? 2 : 1);
-  const double end = kLayoutMargin + length * scene.unit_m * scale;
-  return svg_line(kLayoutMargin, y, end, y, "class=\"scale\" stroke=\"black\" stroke-width=\"2\"") +
-         svg_text(end + 8, y + 4, fmt::format("{:g} {}", length, unit_name(scene.unit_m)), "");
 }
 
 std::string legend(const std::vector<DrawnRay>& rays, double y) {
@@ -224,7 +213,9 @@ std::string layout_drawing(const Scene& scene, const std::vector<DrawnRay>& rays
     elements += shape_elements(scene, to) + light_elements(scene, to);
     top += to.height() + kViewGap;
   }
-  elements += scale_bar(scene, scale, top) + legend(rays, top);
+  elements +=
+      svg_scale_bar(kLayoutMargin, top, scale * scene.unit_m, kViewWidth / 5, unit_name(scene.unit_m)) +
+      legend(rays, top);
   return svg_document(kViewWidth + 2 * kLayoutMargin, top + 30, title, elements);
 }
 

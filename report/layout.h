@@ -27,11 +27,9 @@ inline constexpr double kMinDrawnFraction = 1e-3;
 /// wavelengths.
 [[nodiscard]] std::string wavelength_color(double wavelength_nm);
 
-/// SVG document with the plan (x, y) and elevation (x, z) of a committed scene at time 0. It shows:
-/// - outlines of the shapes that are not distant, with at most 60 names;
-/// - lights with a position that are not distant, and the camera with its field of view;
-/// - rays in the colours of their wavelengths;
-/// - a scale bar in the units of the scene.
+/// SVG document with the plan (x, y) and elevation (x, z) of a committed scene at time 0. It shows the shapes
+/// and lights that are not distant, at most 60 names, the camera with its field of view, and rays in the
+/// colours of their wavelengths. The scale bar has the units of the scene.
 [[nodiscard]] std::string layout_drawing(const Scene& scene, const std::vector<DrawnRay>& rays,
                                          const std::string& title);
 

@@ -15,23 +15,18 @@
 namespace abbe {
 namespace {
 
+using Imath::V3d;
 using lens::Beam;
+using lens::RayPath;
 using lens::Spot;
 using lens::SystemAt;
 
 constexpr int kCells = 100;   // per edge of the square grid of rays over a beam
 constexpr int kFanRays = 41;  // evenly spaced from one edge of the stop to the other
 
-// Shortest and longest wavelength, between which colour errors are computed.
-std::pair<double, double> ends(const std::vector<double>& wavelengths_nm) {
-  const auto [low, high] = std::minmax_element(wavelengths_nm.begin(), wavelengths_nm.end());
-  return {*low, *high};
-}
-
 lens::SeidelSums seidel_of(const lens::System& system, const LensFigures& figures) {
-  const auto [blue, red] = ends(system.wavelengths_nm);
-  const double outermost = *std::max_element(system.fields.begin(), system.fields.end(),
-                                             [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const auto [blue, red] = std::ranges::minmax(system.wavelengths_nm);
+  const double outermost = std::ranges::max(system.fields, {}, [](double field) { return std::abs(field); });
   const auto& speed = figures.speed[system.primary];
   const double radius = speed ? speed->launch_diameter_mm / 2 : std::numeric_limits<double>::quiet_NaN();
   return lens::seidel_sums(SystemAt(system, system.primary_nm()), SystemAt(system, blue),
@@ -79,24 +74,18 @@ void add_illumination(LensFigures& figures) {
 }
 
 std::vector<GhostFigures> ghosts_of(const lens::System& system, double stop_radius_mm) {
-  const auto [blue, red] = ends(system.wavelengths_nm);
+  const auto [blue, red] = std::ranges::minmax(system.wavelengths_nm);
   const SystemAt at(system, system.primary_nm());
   std::vector<GhostFigures> all;
   for (const lens::Ghost& ghost : lens::ghosts(system, blue, red)) {
     const lens::GhostFocus focus = lens::ghost_focus(at, ghost, stop_radius_mm);
     all.push_back({ghost, focus.image_distance_mm - system.surfaces.back().thickness_mm, focus.diameter_mm});
   }
-  const auto brightness = [](const GhostFigures& of) {
+  std::ranges::sort(all, std::ranges::greater(), [](const GhostFigures& of) {
     return of.ghost.reflectance / (of.diameter_mm * of.diameter_mm);
-  };
-  std::sort(all.begin(), all.end(),
-            [&](const GhostFigures& a, const GhostFigures& b) { return brightness(a) > brightness(b); });
+  });
   return all;
 }
-
-using Imath::V3d;
-using lens::RayPath;
-using lens::SystemAt;
 
 constexpr double kDrawingWidth = 900;
 constexpr double kMaxHeight = 520;
@@ -106,8 +95,12 @@ constexpr int kArcPoints = 48;
 constexpr double kShrinkFactor = 0.99;
 constexpr double kRimFactor = 1.05;     // height of a surface relative to the highest ray on it
 constexpr double kLeadFraction = 0.25;  // of the lens's length, for rays in front of it
-constexpr std::array<const char*, 6> kColors{"#2060c0", "#208040", "#c03030",
-                                             "#a06000", "#8030a0", "#008080"};
+
+const char* field_color(std::size_t field) {
+  constexpr std::array<const char*, 6> kColors{"#2060c0", "#208040", "#c03030",
+                                               "#a06000", "#8030a0", "#008080"};
+  return kColors[field % kColors.size()];
+}
 
 struct LensRay {
   std::size_t field;
@@ -242,27 +235,12 @@ std::string plane_elements(const LensFigures& figures, const SystemAt& at, const
   return all + svg_line(x0, y0, x1, y1, "class=\"image\" " + black);
 }
 
-// Scale bar of 1, 2 or 5 times a power of ten, at most a fifth of the width.
-std::string scale_bar(const SectionView& to) {
-  const double max_length = kDrawingWidth / 5 / to.scale();
-  const double decade = std::pow(10.0, std::floor(std::log10(max_length)));
-  double length = decade;
-  for (const double round : {2.0, 5.0})
-    if (round * decade <= max_length) length = round * decade;
-  const double y = to.bottom() + 25;
-  return svg_line(kDrawingMargin, y, kDrawingMargin + length * to.scale(), y,
-                  "stroke=\"black\" stroke-width=\"2\"") +
-         svg_text(kDrawingMargin + length * to.scale() + 8, y + 4, fmt::format("{:g} mm", length), "");
-}
-
 constexpr double kPerMm = 1000;  // micrometres
 constexpr double kSpotSide = 200;
 constexpr double kSpotTop = 40;
 constexpr std::size_t kMaxDots = 700;  // of a spot
 constexpr int kMtfPoints = 60;
 constexpr int kShiftStepNm = 5;
-constexpr std::array<const char*, 6> kFieldColors{"#2060c0", "#208040", "#c03030",
-                                                  "#a06000", "#8030a0", "#008080"};
 
 // Largest distance of any ray from the chief ray of its field.
 double max_spot_distance(const LensFigures& figures) {
@@ -342,14 +320,15 @@ std::string lens_drawing(const LensFigures& figures) {
   elements += svg_line(kDrawingMargin, axis_y, kDrawingWidth - kDrawingMargin, axis_y,
                        "stroke=\"#888888\" stroke-dasharray=\"8 3 2 3\"");
   for (const LensRay& ray : rays)
-    elements += svg_polyline(
-        to.at(ray.points),
-        fmt::format("class=\"ray\" stroke=\"{}\" stroke-width=\"0.8\"", kColors[ray.field % kColors.size()]));
-  elements += plane_elements(figures, at, rays, to) + scale_bar(to);
+    elements +=
+        svg_polyline(to.at(ray.points),
+                     fmt::format("class=\"ray\" stroke=\"{}\" stroke-width=\"0.8\"", field_color(ray.field)));
+  elements += plane_elements(figures, at, rays, to);
+  elements += svg_scale_bar(kDrawingMargin, to.bottom() + 25, to.scale(), kDrawingWidth / 5, "mm");
   double x = kDrawingWidth / 2;
   for (std::size_t f = 0; f < figures.fields.size(); ++f, x += 75)
     elements += svg_text(x, to.bottom() + 29, figures.field_name(figures.fields[f].field),
-                         fmt::format("fill=\"{}\"", kColors[f % kColors.size()]));
+                         fmt::format("fill=\"{}\"", field_color(f)));
   return svg_document(kDrawingWidth, to.bottom() + 45, figures.system.title, elements);
 }
 
@@ -382,8 +361,8 @@ std::string fan_plot(const LensFigures& figures, const LensFieldFigures& field) 
                 {}};
   for (std::size_t w = 0; w < field.fans.size(); ++w) {
     const double nm = figures.system.wavelengths_nm[w];
-    PlotSeries tangential{fmt::format("{:.4g} nm", nm), {}, wavelength_color(nm), false, false};
-    PlotSeries sagittal{"", {}, wavelength_color(nm), true, false};
+    PlotSeries tangential{fmt::format("{:.4g} nm", nm), {}, wavelength_color(nm)};
+    PlotSeries sagittal{"", {}, wavelength_color(nm), true};
     const lens::RayFan& fan = field.fans[w];
     for (std::size_t i = 0; i < fan.pupil.size(); ++i) {
       if (fan.tangential[i]) tangential.points.emplace_back(fan.pupil[i], kPerMm * *fan.tangential[i]);
@@ -397,13 +376,12 @@ std::string fan_plot(const LensFigures& figures, const LensFieldFigures& field) 
 
 std::string lens_mtf_plot(const LensFigures& figures) {
   LinePlot plot{"Geometric modulation transfer, sagittal dashed", "lines per mm", "modulation", {}};
-  const double highest =
-      *std::max_element(figures.frequencies_per_mm.begin(), figures.frequencies_per_mm.end());
+  const double highest = std::ranges::max(figures.frequencies_per_mm);
   for (std::size_t f = 0; f < figures.fields.size(); ++f) {
     const LensFieldFigures& field = figures.fields[f];
-    const std::string color = kFieldColors[f % kFieldColors.size()];
-    PlotSeries tangential{figures.field_name(field.field), {}, color, false, false};
-    PlotSeries sagittal{"", {}, color, true, false};
+    const std::string color = field_color(f);
+    PlotSeries tangential{figures.field_name(field.field), {}, color};
+    PlotSeries sagittal{"", {}, color, true};
     for (int i = 0; i <= kMtfPoints; ++i) {
       const double per_mm = highest * i / kMtfPoints;
       tangential.points.emplace_back(per_mm, lens::geometric_mtf(field.spots, per_mm, {0, 1}));
@@ -418,10 +396,10 @@ std::string lens_mtf_plot(const LensFigures& figures) {
 std::string focal_shift_plot(const LensFigures& figures) {
   const lens::System& system = figures.system;
   const double reference = figures.first_order[system.primary].image_distance_mm;
-  const auto [low, high] = std::minmax_element(system.wavelengths_nm.begin(), system.wavelengths_nm.end());
+  const auto [low, high] = std::ranges::minmax(system.wavelengths_nm);
   PlotSeries series{"", {}, "#2060c0", false, false};
-  for (double nm = *low; nm < *high + kShiftStepNm; nm += kShiftStepNm) {
-    const double at_nm = std::min(nm, *high);
+  for (double nm = low; nm < high + kShiftStepNm; nm += kShiftStepNm) {
+    const double at_nm = std::min(nm, high);
     const double image = lens::first_order(lens::SystemAt(system, at_nm)).image_distance_mm;
     series.points.emplace_back(at_nm, kPerMm * (image - reference));
   }

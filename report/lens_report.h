@@ -11,27 +11,21 @@
 
 namespace abbe {
 
-/// Properties of a lens at one field. Lists per wavelength have the order of `lens::System`.
+/// Properties of a lens at one field. Spots, chief rays and fans are one per wavelength of `lens::System`.
 struct LensFieldFigures {
   double field;                   ///< Field as in `lens::System`: degrees, or mm for a near object.
-  std::vector<lens::Spot> spots;  ///< One spot per wavelength; without rays if its beam is blocked.
-  /// One chief ray per wavelength; nothing if it does not arrive at the image.
+  std::vector<lens::Spot> spots;  ///< Without rays if the beam is blocked.
   std::vector<std::optional<lens::Chief>> chiefs;
-  /// Irradiance relative to that on the axis, at the primary wavelength; nothing as for
-  /// `lens::relative_illumination`.
+  /// `lens::relative_illumination` at the primary wavelength.
   std::optional<double> relative_illumination;
-  /// One fan per wavelength, relative to the chief ray of the primary wavelength. Empty if that ray is
-  /// blocked.
+  /// Relative to the chief ray of the primary wavelength; empty if that ray is blocked.
   std::vector<lens::RayFan> fans;
-  /// Geometric modulation in [0, 1] of a pattern that varies along y, one value per frequency of
+  /// `lens::geometric_mtf` of patterns that vary along y and along x, one value per frequency of
   /// `LensFigures`. The object has equal radiance at all wavelengths.
-  std::vector<double> tangential_mtf;
-  /// Geometric modulation in [0, 1] of a pattern that varies along x, one value per frequency of
-  /// `LensFigures`.
-  std::vector<double> sagittal_mtf;
+  std::vector<double> tangential_mtf, sagittal_mtf;
 
-  /// Lateral colour [mm]: y of the chief ray at the shortest wavelength minus that at the longest. Nothing if
-  /// either is blocked.
+  /// Height of the chief ray at the shortest wavelength minus that at the longest [mm]. Nothing if either is
+  /// blocked.
   [[nodiscard]] std::optional<double> lateral_color_mm() const;
 };
 
@@ -44,28 +38,25 @@ struct GhostFigures {
   double diameter_mm;  ///< Beam diameter in the image plane; infinite if no aperture limits it.
 };
 
-/// All computed properties of a lens. Lists per wavelength have the order of `system`.
+/// All computed properties of a lens.
 struct LensFigures {
-  lens::System system;                        ///< The analysed lens.
-  double stop_radius_mm;                      ///< Result of `lens::stop_radius`.
-  std::vector<lens::FirstOrder> first_order;  ///< One entry per wavelength.
-  /// One entry per wavelength; nothing if the axial beam does not arrive at the image.
-  std::vector<std::optional<lens::Speed>> speed;
+  lens::System system;
+  double stop_radius_mm;
+  std::vector<lens::FirstOrder> first_order;      ///< One per wavelength.
+  std::vector<std::optional<lens::Speed>> speed;  ///< One per wavelength.
   /// Seidel sums at the primary wavelength for the field farthest from the axis. Colour sums are between the
   /// shortest and the longest wavelength. NaN if there is no `speed` at the primary wavelength.
   lens::SeidelSums seidel;
-  /// Displacement of the image plane towards +z that `lens::best_focus` finds; nothing as there.
-  std::optional<double> best_focus_mm;
-  std::vector<double> frequencies_per_mm;  ///< Spatial frequencies of the MTF [cycles/mm], as requested.
-  std::vector<LensFieldFigures> fields;    ///< One entry per field, in the order of `system`.
+  std::optional<double> best_focus_mm;     ///< `lens::best_focus`.
+  std::vector<double> frequencies_per_mm;  ///< Spatial frequencies of the MTF [cycles/mm].
+  std::vector<LensFieldFigures> fields;    ///< In the order of `system`.
   std::vector<GhostFigures> ghosts;        ///< Sorted by reflectance over area, the brightest first.
 
   /// Label of a field, such as "14 deg" for an object at infinity or "5 mm" for a near object.
   [[nodiscard]] std::string field_name(double field) const;
 };
 
-/// Computes all properties of a lens with at least one field and one wavelength. `frequencies_per_mm` are the
-/// spatial frequencies of the MTF [cycles/mm]. Throws the errors of `lens::stop_radius`.
+/// Computes all properties of a lens. Throws the errors of `lens::stop_radius`.
 [[nodiscard]] LensFigures lens_figures(const lens::System& system, std::vector<double> frequencies_per_mm);
 
 /// SVG document with the section of a lens in the plane x = 0, +z to the right and +y upwards. It shows the

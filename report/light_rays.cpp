@@ -39,17 +39,15 @@ struct SurfaceCenter {
 };
 
 // `sample_area` returns float positions; those on spheres and meshes are projected onto the surface.
-SurfaceCenter surface_center(const AreaLight& light, const Shape& shape) {
+SurfaceCenter surface_center(const Shape& shape) {
   // A moving shape is drawn at its position of time 0.
   if (const auto* placed = std::get_if<PlacedShape>(&shape)) {
     const Shape at_rest = std::visit([](const auto& s) { return Shape(s); }, placed->of->shape);
-    const auto [point, normal] = surface_center(light, at_rest);
+    const auto [point, normal] = surface_center(at_rest);
     return {point * placed->at->to_world, normal_to_world(*placed->at, normal)};
   }
-  if (const auto* quad = std::get_if<Quad>(&shape))
-    return {quad->corner + (quad->edge_u + quad->edge_v) / 2, normal_of(*quad)};
-  if (const auto* disc = std::get_if<Disc>(&shape)) return {disc->center, disc->normal};
-  const SurfacePoint drawn = sample_area(shape, light.triangle_cdf, {0.5F, 0.5F});
+  if (const auto face = flat_face(shape)) return {face->center, face->normal};
+  const SurfacePoint drawn = sample_area(shape, triangle_cdf(shape), {0.5F, 0.5F});
   const V3d point(drawn.point);
   const V3d normal = V3d(drawn.normal).normalized();
   const V3d above = point + 8 * float_step(largest_coordinate(point)) * normal;
@@ -70,10 +68,9 @@ const Light& light_named(const Scene& scene, const std::string& name, const std:
 }
 
 std::optional<BasicRay<double>> central_ray(const Scene& scene, const Light& light) {
-  const auto* area = std::get_if<AreaLight>(&light.kind);
-  if (area == nullptr)
-    return central_ray(light, SceneSphere{scene_center(scene), scene_radius(scene.bounds)});
-  const auto [point, normal] = surface_center(*area, scene.shapes[area->shape].shape);
+  const std::optional<std::uint32_t> surface = surface_of(light);
+  if (!surface) return central_ray(light, Ball{scene_center(scene), scene_radius(scene.bounds)});
+  const auto [point, normal] = surface_center(scene.shapes[*surface].shape);
   return BasicRay<double>{point + kSurfaceOffset * (scene_radius(scene.bounds) + point.length()) * normal,
                           normal};
 }

@@ -10,13 +10,13 @@
 
 namespace abbe {
 
-/// False-colour picture of the differences of two images, on a scale from 0 (dark) to `high` (bright). Both
-/// pictures have sRGB code values in [0, 1].
+/// False-colour picture of the differences of two images, on a scale from 0 (dark) to `high` (bright), in
+/// sRGB code values.
 struct DifferenceMap {
   std::string name;  ///< `kRelativeErrorMap` or `kDeltaEMap`.
   double high;       ///< End of the scale, in the unit of the differences.
-  Image map;         ///< Picture of the images' size.
-  Image histogram;   ///< Histogram of the differences (`histogram_picture`).
+  Image map;
+  Image histogram;  ///< `histogram_picture` of the differences.
 };
 
 /// Names of the available maps.
@@ -37,10 +37,10 @@ inline constexpr const char* kDeltaEMap = "delta_e";
 /// x 252 pixels.
 [[nodiscard]] Image histogram_picture(const std::vector<double>& values, double high);
 
-/// False-colour picture of a property of polarisation.
+/// False-colour picture of a property of polarisation in sRGB code values.
 struct PolarisationMap {
   std::string name;  ///< One of the names below.
-  Image map;         ///< Channels R, G and B with sRGB code values in [0, 1].
+  Image map;
 };
 
 /// Names of the available maps.
@@ -48,14 +48,13 @@ inline constexpr const char* kDegreeMap = "degree";
 inline constexpr const char* kLinearDegreeMap = "linear_degree";
 inline constexpr const char* kAngleMap = "angle";
 
-/// Components of the Stokes vector that were measured: I, Q, U and V (`all`), or I, Q and U (`linear`).
+/// Measured components of the Stokes vector: I, Q, U and V (`all`), or I, Q and U (`linear`).
 enum class MeasuredStokes { all, linear };
 
 /// Maps of the degree of polarisation (if `measured` is `all`), the degree of linear polarisation and the
 /// angle, in this order. `pixels` contains one value per pixel of a picture of `width` x `height`, row by
 /// row. Degrees use `map_color` from 0 (dark) to 1. Angles use `cyclic_color` with a period of 180 degrees,
-/// and the degree of linear polarisation as its strength. Light without linear polarisation is therefore
-/// grey.
+/// and the degree of linear polarisation as its strength.
 [[nodiscard]] std::vector<PolarisationMap> polarisation_maps(const std::vector<PolarisationFigures>& pixels,
                                                              MeasuredStokes measured, int width, int height);
 

@@ -19,48 +19,97 @@ constexpr double kLogRight = 570;  // the legend is to the right
 constexpr double kLogTop = 46;
 constexpr double kLogBottom = 410;
 constexpr double kLegendRow = 21;
+constexpr double kLogStroke = 1.8;
 
-// A logarithmic axis from `low` to `high` (0 < low < high), drawn between two pixel coordinates.
-struct LogAxis {
+// An axis from `low` to `high`, drawn between two pixel coordinates in either order. 0 < low if logarithmic.
+struct Axis {
   double low, high;
-  double pixel_low, pixel_high;  ///< Coordinates of `low` and `high`, in either order.
+  double pixel_low, pixel_high;
+  bool logarithmic;
+  std::vector<double> ticks;
 
-  // Pixel coordinate of a value > 0; outside the axis it is extrapolated.
+  // Pixel coordinate of a value; outside the axis it is extrapolated.
   [[nodiscard]] double at(double value) const {
-    return pixel_low + (pixel_high - pixel_low) * std::log(value / low) / std::log(high / low);
+    if (logarithmic)
+      return pixel_low + (pixel_high - pixel_low) * std::log(value / low) / std::log(high / low);
+    return pixel_low + (value - low) / (high - low) * (pixel_high - pixel_low);
   }
 };
 
-// Multiples of 1, 2 and 5 of the powers of ten on the axis.
-std::vector<double> ticks(const LogAxis& axis) {
+// Multiples of 1, 2 and 5 of the powers of ten from `low` to `high`.
+std::vector<double> log_ticks(double low, double high) {
   std::vector<double> all;
   for (int decade = -20; decade <= 20; ++decade)
     for (const double step : {1.0, 2.0, 5.0}) {
       const double value = step * std::pow(10.0, decade);
-      if (value >= axis.low * (1 - 1e-9) && value <= axis.high * (1 + 1e-9)) all.push_back(value);
+      if (value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9)) all.push_back(value);
     }
   return all;
 }
 
-std::string axes(const LogAxis& x, const LogAxis& y, const LogPlot& plot) {
-  const std::string grid = "stroke=\"#dddddd\"";
+Axis log_axis(const std::vector<double>& values, double pixel_low, double pixel_high) {
+  const auto [low, high] = log_range(values);
+  return {low, high, pixel_low, pixel_high, true, log_ticks(low, high)};
+}
+
+// Linear axis with round limits that contain all values.
+Axis linear_axis(double low, double high, double pixel_low, double pixel_high) {
+  constexpr int kMaxIntervals = 6;
+  if (!(high > low)) high = low + 1;
+  const double rough = (high - low) / kMaxIntervals;
+  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10 * decade;
+  for (const double round : {5.0, 2.0, 1.0})
+    if (round * decade >= rough) step = round * decade;
+  Axis axis{
+      std::floor(low / step) * step, std::ceil(high / step - 1e-9) * step, pixel_low, pixel_high, false, {}};
+  for (double value = axis.low; value < axis.high + step / 2; value += step) axis.ticks.push_back(value);
+  return axis;
+}
+
+// Grid, frame and labels of a plot.
+std::string frame(const Axis& x, const Axis& y, const std::string& x_label, const std::string& y_label) {
+  const std::string grid_line = "stroke=\"#dddddd\"";
+  const double left = x.pixel_low;
+  const double right = x.pixel_high;
+  const double top = y.pixel_high;
+  const double bottom = y.pixel_low;
   std::string all;
-  for (const double value : ticks(x)) {
-    all += svg_line(x.at(value), kLogTop, x.at(value), kLogBottom, grid);
-    all += svg_text(x.at(value), kLogBottom + 18, fmt::format("{:g}", value),
-                    "class=\"x\" text-anchor=\"middle\"");
+  for (const double value : x.ticks) {
+    all += svg_line(x.at(value), top, x.at(value), bottom, grid_line);
+    all +=
+        svg_text(x.at(value), bottom + 18, fmt::format("{:g}", value), "class=\"x\" text-anchor=\"middle\"");
   }
-  for (const double value : ticks(y)) {
-    all += svg_line(kLogLeft, y.at(value), kLogRight, y.at(value), grid);
-    all += svg_text(kLogLeft - 7, y.at(value) + 4, fmt::format("{:g}", value),
-                    "class=\"y\" text-anchor=\"end\"");
+  for (const double value : y.ticks) {
+    all += svg_line(left, y.at(value), right, y.at(value), grid_line);
+    all += svg_text(left - 7, y.at(value) + 4, fmt::format("{:g}", value), "class=\"y\" text-anchor=\"end\"");
   }
-  all += svg_rect(kLogLeft, kLogTop, kLogRight - kLogLeft, kLogBottom - kLogTop,
-                  "fill=\"none\" stroke=\"#444444\"");
-  const double center_y = (kLogTop + kLogBottom) / 2;
-  all += svg_text((kLogLeft + kLogRight) / 2, kLogBottom + 42, plot.x_label, "text-anchor=\"middle\"");
-  return all + svg_text(18, center_y, plot.y_label,
+  const double center_y = (top + bottom) / 2;
+  all += svg_rect(left, top, right - left, bottom - top, "fill=\"none\" stroke=\"#444444\"");
+  all += svg_text((left + right) / 2, bottom + 42, x_label, "text-anchor=\"middle\"");
+  return all + svg_text(18, center_y, y_label,
                         fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", center_y));
+}
+
+/// Coordinates of all points of some series.
+struct Coordinates {
+  std::vector<double> x{};
+  std::vector<double> y{};
+};
+Coordinates coordinates_of(const std::vector<PlotSeries>& all) {
+  Coordinates coordinates;
+  for (const PlotSeries& series : all)
+    for (const auto& [x, y] : series.points) {
+      coordinates.x.push_back(x);
+      coordinates.y.push_back(y);
+    }
+  return coordinates;
+}
+
+SvgPoints drawn_points(const PlotSeries& series, const Axis& x, const Axis& y) {
+  SvgPoints points;
+  for (const auto& [px, py] : series.points) points.emplace_back(x.at(px), y.at(py));
+  return points;
 }
 
 std::string marker(double x, double y, const PlotSeries& series, const std::string& kind) {
@@ -69,26 +118,16 @@ std::string marker(double x, double y, const PlotSeries& series, const std::stri
                                 series.hollow ? "white" : series.color, series.color));
 }
 
-std::string stroke(const PlotSeries& series) {
-  return fmt::format("stroke=\"{}\" stroke-width=\"1.8\"{}", series.color,
+std::string stroke(const PlotSeries& series, double width) {
+  return fmt::format("stroke=\"{}\" stroke-width=\"{}\"{}", series.color, width,
                      series.dashed ? " stroke-dasharray=\"6 4\"" : "");
-}
-
-std::string drawn(const PlotSeries& series, const LogAxis& x, const LogAxis& y) {
-  SvgPoints points;
-  std::string markers;
-  for (const auto& [px, py] : series.points) {
-    points.emplace_back(x.at(px), y.at(py));
-    markers += marker(x.at(px), y.at(py), series, "point");
-  }
-  return svg_polyline(points, stroke(series)) + markers;
 }
 
 std::string legend(const std::vector<PlotSeries>& series) {
   std::string all;
   double y = kLogTop + 8;
   for (const PlotSeries& one : series) {
-    all += svg_line(kLogRight + 16, y, kLogRight + 46, y, stroke(one));
+    all += svg_line(kLogRight + 16, y, kLogRight + 46, y, stroke(one, kLogStroke));
     all += marker(kLogRight + 31, y, one, "key");
     all += svg_text(kLogRight + 54, y + 4, one.name, "");
     y += kLegendRow;
@@ -102,44 +141,6 @@ constexpr double kLeft = 66;
 constexpr double kRight = 600;
 constexpr double kTop = 46;
 constexpr double kBottom = 326;
-constexpr int kMaxIntervals = 6;
-
-// Axis with round limits that contain all values.
-struct Axis {
-  double low, high, step;
-  double pixel_low, pixel_high;
-  [[nodiscard]] double at(double value) const {
-    return pixel_low + (value - low) / (high - low) * (pixel_high - pixel_low);
-  }
-};
-
-Axis axis_for(double low, double high, double pixel_low, double pixel_high) {
-  if (!(high > low)) high = low + 1;
-  const double rough = (high - low) / kMaxIntervals;
-  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
-  double step = 10 * decade;
-  for (const double round : {5.0, 2.0, 1.0})
-    if (round * decade >= rough) step = round * decade;
-  return {std::floor(low / step) * step, std::ceil(high / step - 1e-9) * step, step, pixel_low, pixel_high};
-}
-
-std::string frame(const Axis& x, const Axis& y, const std::string& x_label, const std::string& y_label) {
-  std::string all;
-  for (double value = x.low; value < x.high + x.step / 2; value += x.step) {
-    all += svg_line(x.at(value), kTop, x.at(value), kBottom, "stroke=\"#dddddd\"");
-    all += svg_text(x.at(value), kBottom + 18, fmt::format("{:.6g}", value), "text-anchor=\"middle\"");
-  }
-  for (double value = y.low; value < y.high + y.step / 2; value += y.step) {
-    all += svg_line(kLeft, y.at(value), kRight, y.at(value), "stroke=\"#dddddd\"");
-    all += svg_text(kLeft - 7, y.at(value) + 4, fmt::format("{:.6g}", value), "text-anchor=\"end\"");
-  }
-  const double center_y = (kTop + kBottom) / 2;
-  all += svg_rect(kLeft, kTop, kRight - kLeft, kBottom - kTop, "fill=\"none\" stroke=\"#444444\"");
-  all += svg_text((kLeft + kRight) / 2, kBottom + 42, x_label, "text-anchor=\"middle\"");
-  return all + svg_text(18, center_y, y_label,
-                        fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", center_y));
-}
-
 constexpr double kSize = 460;
 constexpr double kGraphicTop = 40;  // below the title
 constexpr double kCenterX = kSize / 2;
@@ -215,54 +216,40 @@ std::string grid() {
 std::pair<double, double> log_range(const std::vector<double>& values) {
   if (values.empty()) return {1, 10};
   const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
-  const LogAxis all{std::pow(10, std::floor(std::log10(*smallest)) - 1),
-                    std::pow(10, std::ceil(std::log10(*largest)) + 1), 0, 1};
-  const std::vector<double> steps = ticks(all);
+  const std::vector<double> steps = log_ticks(std::pow(10, std::floor(std::log10(*smallest)) - 1),
+                                              std::pow(10, std::ceil(std::log10(*largest)) + 1));
   const double low = *std::prev(std::upper_bound(steps.begin(), steps.end(), *smallest * (1 + 1e-9)));
   const double high = *std::upper_bound(steps.begin(), steps.end(), *largest * (1 + 1e-9));
   return {low, high};
 }
 
 std::string svg(const LogPlot& plot) {
-  std::vector<double> xs;
-  std::vector<double> ys;
-  for (const PlotSeries& series : plot.series)
-    for (const auto& [px, py] : series.points) {
-      xs.push_back(px);
-      ys.push_back(py);
-    }
-  const auto [x_low, x_high] = log_range(xs);
-  const auto [y_low, y_high] = log_range(ys);
-  const LogAxis x{x_low, x_high, kLogLeft, kLogRight};
-  const LogAxis y{y_low, y_high, kLogBottom, kLogTop};
-  std::string all = axes(x, y, plot);
-  for (const PlotSeries& series : plot.series) all += drawn(series, x, y);
+  const auto [xs, ys] = coordinates_of(plot.series);
+  const Axis x = log_axis(xs, kLogLeft, kLogRight);
+  const Axis y = log_axis(ys, kLogBottom, kLogTop);
+  std::string all = frame(x, y, plot.x_label, plot.y_label);
+  for (const PlotSeries& series : plot.series) {
+    const SvgPoints points = drawn_points(series, x, y);
+    all += svg_polyline(points, stroke(series, kLogStroke));
+    for (const auto& [px, py] : points) all += marker(px, py, series, "point");
+  }
   return svg_document(kLogWidth, kLogHeight, plot.title, all + legend(plot.series));
 }
 
 std::string svg(const LinePlot& plot) {
-  std::vector<double> xs;
-  std::vector<double> ys{0};
-  for (const PlotSeries& series : plot.series)
-    for (const auto& [x, y] : series.points) {
-      xs.push_back(x);
-      ys.push_back(y);
-    }
+  auto [xs, ys] = coordinates_of(plot.series);
+  ys.push_back(0);
   if (xs.empty()) xs.push_back(0);
-  const auto [x_low, x_high] = std::minmax_element(xs.begin(), xs.end());
-  const auto [y_low, y_high] = std::minmax_element(ys.begin(), ys.end());
-  const Axis x = axis_for(*x_low, *x_high, kLeft, kRight);
-  const Axis y = axis_for(*y_low, *y_high, kBottom, kTop);
+  const auto [x_low, x_high] = std::ranges::minmax(xs);
+  const auto [y_low, y_high] = std::ranges::minmax(ys);
+  const Axis x = linear_axis(x_low, x_high, kLeft, kRight);
+  const Axis y = linear_axis(y_low, y_high, kBottom, kTop);
   std::string elements = frame(x, y, plot.x_label, plot.y_label);
   double row = kTop + 18;
   for (const PlotSeries& series : plot.series) {
-    SvgPoints points;
-    for (const auto& [px, py] : series.points) points.emplace_back(x.at(px), y.at(py));
-    const std::string stroke = fmt::format("stroke=\"{}\" stroke-width=\"2\"{}", series.color,
-                                           series.dashed ? " stroke-dasharray=\"6 4\"" : "");
-    elements += svg_polyline(points, stroke);
+    elements += svg_polyline(drawn_points(series, x, y), stroke(series, 2));
     if (series.name.empty()) continue;
-    elements += svg_line(kRight - 150, row - 4, kRight - 122, row - 4, stroke);
+    elements += svg_line(kRight - 150, row - 4, kRight - 122, row - 4, stroke(series, 2));
     elements += svg_text(kRight - 114, row, series.name, "");
     row += 18;
   }
@@ -277,8 +264,8 @@ std::string histogram_svg(const std::vector<double>& values, double width, const
     if (bin >= counts.size()) counts.resize(bin + 1, 0);
     counts[bin] += 1;
   }
-  const Axis x = axis_for(0, width * static_cast<double>(counts.size()), kLeft, kRight);
-  const Axis y = axis_for(0, *std::max_element(counts.begin(), counts.end()), kBottom, kTop);
+  const Axis x = linear_axis(0, width * static_cast<double>(counts.size()), kLeft, kRight);
+  const Axis y = linear_axis(0, *std::max_element(counts.begin(), counts.end()), kBottom, kTop);
   std::string elements = frame(x, y, x_label, "patches");
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const double left = x.at(width * static_cast<double>(i));

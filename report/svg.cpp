@@ -1,5 +1,6 @@
 #include "report/svg.h"
 
+#include <cmath>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -56,6 +57,16 @@ std::string svg_polyline(const SvgPoints& points, const std::string& attributes)
 
 std::string svg_polygon(const SvgPoints& points, const std::string& attributes) {
   return point_list_element("polygon", points, attributes);
+}
+
+std::string svg_scale_bar(double x, double y, double pixels_per_unit, double max_pixels,
+                          const std::string& unit) {
+  const double max_length = max_pixels / pixels_per_unit;
+  const double decade = std::pow(10, std::floor(std::log10(max_length)));
+  const double length = decade * (max_length >= 5 * decade ? 5 : max_length >= 2 * decade ? 2 : 1);
+  const double end = x + length * pixels_per_unit;
+  return svg_line(x, y, end, y, "class=\"scale\" stroke=\"black\" stroke-width=\"2\"") +
+         svg_text(end + 8, y + 4, fmt::format("{:g} {}", length, unit), "");
 }
 
 std::string svg_picture(double width, double height, const std::string& elements) {

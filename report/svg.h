@@ -28,6 +28,10 @@ using SvgPoints = std::vector<std::pair<double, double>>;
 [[nodiscard]] std::string svg_polyline(const SvgPoints& points, const std::string& attributes);
 [[nodiscard]] std::string svg_polygon(const SvgPoints& points, const std::string& attributes);
 
+/// Scale bar from (x, y) to the right, of 1, 2 or 5 times a power of ten units, at most `max_pixels` long.
+[[nodiscard]] std::string svg_scale_bar(double x, double y, double pixels_per_unit, double max_pixels,
+                                        const std::string& unit);
+
 /// SVG element of that size [pixels] with the given elements, for embedding in HTML.
 [[nodiscard]] std::string svg_picture(double width, double height, const std::string& elements);
 /// Complete SVG document of that size [pixels] with the given elements on white. `title`, which is escaped,

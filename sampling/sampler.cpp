@@ -10,12 +10,12 @@ namespace {
 
 using Point = std::array<std::uint32_t, 4>;
 
-// One 32-bit integer for each dimension of one group (`Quad`) or of two groups (`Lanes`), in one SIMD
+// One 32-bit integer for each dimension of one group (`FourWords`) or of two groups (`Lanes`), in one SIMD
 // register.
-using Quad [[gnu::vector_size(16)]] = std::uint32_t;
+using FourWords [[gnu::vector_size(16)]] = std::uint32_t;
 using Lanes [[gnu::vector_size(32)]] = std::uint32_t;
 
-Lanes join(Quad a, Quad b) {
+Lanes join(FourWords a, FourWords b) {
   return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
@@ -98,7 +98,7 @@ constexpr std::size_t kMaxDigits = 3;
 
 // First point of each of eight replicates: one of the first eight points of the sequence. It is also the
 // first point for fewer replicates.
-alignas(Quad) constexpr std::array<Point, 1 << kMaxDigits> kFirstPoints = [] {
+alignas(FourWords) constexpr std::array<Point, 1 << kMaxDigits> kFirstPoints = [] {
   std::array<Point, 1 << kMaxDigits> points{};
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     IndexedPoint point{};
@@ -132,8 +132,8 @@ constexpr SobolBytes sobol_bytes(std::size_t digits) {
 }
 
 // Indexed by the number of binary digits that number a replicate.
-alignas(Quad) constexpr std::array<SobolBytes, kMaxDigits + 1> kSobol{sobol_bytes(0), sobol_bytes(1),
-                                                                      sobol_bytes(2), sobol_bytes(3)};
+alignas(FourWords) constexpr std::array<SobolBytes, kMaxDigits + 1> kSobol{sobol_bytes(0), sobol_bytes(1),
+                                                                           sobol_bytes(2), sobol_bytes(3)};
 
 // Permutation in which each bit depends only on itself and on lower bits [Laine2011]. Applied between two bit
 // reversals, it is an Owen scrambling.
@@ -164,12 +164,12 @@ constexpr std::uint32_t shuffle(std::uint32_t x, std::uint32_t seed) {
 
 // Point of a replicate with bit-reversed coordinates. `reversed` is the bit-reversed index within the
 // replicate.
-Quad sobol_point(std::uint32_t reversed, Replicate replicate) {
+FourWords sobol_point(std::uint32_t reversed, Replicate replicate) {
   const SobolBytes& table = kSobol[static_cast<std::size_t>(std::countr_zero(replicate.count))];
   const auto part = [&table, reversed](std::size_t byte) {
-    return std::bit_cast<Quad>(table[byte][(reversed >> (8 * byte)) & 255U]);
+    return std::bit_cast<FourWords>(table[byte][(reversed >> (8 * byte)) & 255U]);
   };
-  return part(0) ^ part(1) ^ part(2) ^ part(3) ^ std::bit_cast<Quad>(kFirstPoints[replicate.number]);
+  return part(0) ^ part(1) ^ part(2) ^ part(3) ^ std::bit_cast<FourWords>(kFirstPoints[replicate.number]);
 }
 
 // A Sobol point with bit-reversed coordinates, and the key that scrambles it. The key also permutes the
@@ -181,12 +181,12 @@ struct GroupPoint {
         point(sobol_point(shuffle(reversed_index, mix(key + replicate.number + 1)),
                           {replicate.number ^ (key & (replicate.count - 1)), replicate.count})) {}
   std::uint32_t key;
-  Quad point;
+  FourWords point;
 };
 
 std::array<std::array<float, 4>, 2> numbers(const GroupPoint& a, const GroupPoint& b) {
   constexpr Lanes kNumbers{1, 2, 3, 4, 1, 2, 3, 4};
-  const Lanes keys = join(Quad{a.key, a.key, a.key, a.key}, Quad{b.key, b.key, b.key, b.key});
+  const Lanes keys = join(FourWords{a.key, a.key, a.key, a.key}, FourWords{b.key, b.key, b.key, b.key});
   const Lanes x = reverse_bits(owen_scramble(join(a.point, b.point), combine(keys, kNumbers)));
   using Floats [[gnu::vector_size(32)]] = float;
   using Signed [[gnu::vector_size(32)]] = std::int32_t;  // conversion from signed integers is one instruction

@@ -70,7 +70,10 @@ struct FaceCollector {
   }
   template <typename S>
   void operator()(const S& shape) const {
-    if (const std::optional<FlatFace> flat = flat_face(shape)) add(flat->corners, flat->round);
+    const std::optional<FlatFace> flat = flat_face(shape);
+    if (!flat) return;
+    const auto& [at, u, v, center, normal, round] = *flat;
+    add({at, at + u, at + v, at + u + v}, round);
   }
   void operator()(const PlacedShape& placed) const {
     const M44d& at = placed.at->to_world;
@@ -87,11 +90,7 @@ struct Ellipsoid {
 
   // Vector from the center to the surface point with that outward normal.
   [[nodiscard]] V3d surface_offset(const V3d& normal) const {
-    V3d own;
-    to_world.transposed().multDirMatrix(normal, own);
-    V3d side;
-    to_world.multDirMatrix(own.normalized() * radius, side);
-    return side;
+    return moved_direction(moved_direction(normal, to_world.transposed()).normalized() * radius, to_world);
   }
   // Radius if the ellipsoid is a sphere to within `tolerance`.
   [[nodiscard]] std::optional<double> radius_of_ball(double tolerance) const {
@@ -103,19 +102,21 @@ struct Ellipsoid {
 };
 
 std::optional<Ellipsoid> ellipsoid_of(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape))
-    return Ellipsoid{sphere->center, sphere->radius, M44d()};
+  const std::optional<Ball> ball = ball_of(shape);
+  if (!ball) return std::nullopt;
   const auto* placed = std::get_if<PlacedShape>(&shape);
-  const auto* sphere = placed == nullptr ? nullptr : std::get_if<Sphere>(&placed->of->shape);
-  if (sphere == nullptr) return std::nullopt;
-  const M44d& to_world = placed->at->to_world;
-  return Ellipsoid{sphere->center * to_world, sphere->radius, to_world};
+  const M44d to_world = placed != nullptr ? placed->at->to_world : M44d();
+  return Ellipsoid{ball->center * to_world, ball->radius, to_world};
+}
+
+// Distance of a point from the plane of a face.
+double distance_off(const Face& plane, const V3d& point) {
+  return std::abs((point - plane.corners[0]).dot(plane.normal));
 }
 
 bool has_corner_in_plane(const Face& of, const Face& plane, double tolerance) {
-  return std::any_of(of.corners.begin(), of.corners.end(), [&](const V3d& corner) {
-    return std::abs((corner - plane.corners[0]).dot(plane.normal)) <= tolerance;
-  });
+  return std::ranges::any_of(of.corners,
+                             [&](const V3d& corner) { return distance_off(plane, corner) <= tolerance; });
 }
 
 // True if two parallel faces overlap by more than `min_overlap`: no line in their plane separates them.
@@ -147,9 +148,8 @@ bool coincide(const Face& a, const Face& b, double tolerance, double min_overlap
 
 // A triangle lies in the plane if all its corners do, a parallelogram if three corners do.
 bool is_in_plane(const Face& face, const Face& plane, double tolerance) {
-  return std::all_of(face.corners.begin(), face.corners.begin() + 3, [&](const V3d& corner) {
-    return std::abs((corner - plane.corners[0]).dot(plane.normal)) <= tolerance;
-  });
+  return std::all_of(face.corners.begin(), face.corners.begin() + 3,
+                     [&](const V3d& corner) { return distance_off(plane, corner) <= tolerance; });
 }
 
 bool lies_in(const Face& a, const Face& b, double tolerance) {
@@ -179,7 +179,7 @@ bool tangent(const Ellipsoid& ball, const Face& face, double tolerance) {
   const V3d side = ball.surface_offset(face.normal);
   const Box3d near = grown(face.box, std::sqrt(2 * side.length() * tolerance));
   return std::ranges::any_of(std::array{ball.center + side, ball.center - side}, [&](const V3d& point) {
-    return std::abs((point - face.corners[0]).dot(face.normal)) <= tolerance && near.intersects(point);
+    return distance_off(face, point) <= tolerance && near.intersects(point);
   });
 }
 

@@ -39,8 +39,7 @@ std::vector<BoxedShape> shapes_of(const Scene& scene, const Predicate& predicate
 // `make_solid` modifies its mesh.
 bool is_closed_emitter(const Scene& scene, std::uint32_t shape) {
   const ShapeInstance& instance = scene.shapes[shape];
-  if (std::get<AreaLight>(scene.lights[static_cast<std::size_t>(instance.light)].kind).two_sided)
-    return false;
+  if (two_sided(scene.lights[static_cast<std::size_t>(instance.light)])) return false;
   const auto* mesh = plain<Mesh>(instance.shape);
   if (mesh == nullptr) return false;
   Mesh copy = *mesh;
@@ -212,12 +211,17 @@ bool cuts(const Face& plane, const Face& face, double tolerance) {
   return min_distance <= tolerance && max_distance >= -tolerance;
 }
 
+// The ball of a sphere in render coordinates; an instance may be an ellipsoid.
+std::optional<Ball> unplaced_ball(const Shape& shape) {
+  return std::holds_alternative<PlacedShape>(shape) ? std::nullopt : ball_of(shape);
+}
+
 // True if a sphere and a plane at `distance` from its center, or two spheres, may coincide: they intersect at
 // a small angle or come within `tolerance`.
-bool nearly_tangent(const Sphere& ball, double distance, double tolerance) {
+bool nearly_tangent(const Ball& ball, double distance, double tolerance) {
   return distance >= kNearlyParallel * ball.radius - tolerance && distance <= ball.radius + tolerance;
 }
-bool nearly_tangent(const Sphere& a, const Sphere& b, double tolerance) {
+bool nearly_tangent(const Ball& a, const Ball& b, double tolerance) {
   const double distance = (a.center - b.center).length();
   if (distance > a.radius + b.radius + tolerance || distance < std::abs(a.radius - b.radius) - tolerance)
     return false;
@@ -309,13 +313,13 @@ class RegionFinder {
     const Shape& of_a = shape_of(a);
     const Shape& of_b = shape_of(b);
     if (motion_of(of_a) != nullptr || motion_of(of_b) != nullptr) return false;
-    const auto* ball_a = std::get_if<Sphere>(&of_a);
-    const auto* ball_b = std::get_if<Sphere>(&of_b);
-    if (ball_a != nullptr && ball_b != nullptr) return !nearly_tangent(*ball_a, *ball_b, tolerance);
-    if (ball_a == nullptr && !has_faces(of_a)) return false;
-    if (ball_b == nullptr && !has_faces(of_b)) return false;
-    if (ball_a != nullptr) return add_ball(*ball_a, a, b, both, tolerance);
-    if (ball_b != nullptr) return add_ball(*ball_b, b, a, both, tolerance);
+    const std::optional<Ball> ball_a = unplaced_ball(of_a);
+    const std::optional<Ball> ball_b = unplaced_ball(of_b);
+    if (ball_a && ball_b) return !nearly_tangent(*ball_a, *ball_b, tolerance);
+    if (!ball_a && !has_faces(of_a)) return false;
+    if (!ball_b && !has_faces(of_b)) return false;
+    if (ball_a) return add_ball(*ball_a, a, b, both, tolerance);
+    if (ball_b) return add_ball(*ball_b, b, a, both, tolerance);
     const auto faces_a = faces_near(of_a, both);
     const auto faces_b = faces_near(of_b, both);
     return faces_a && faces_b && add_faces(a, *faces_a, b, *faces_b, [](double cosine) {
@@ -324,7 +328,7 @@ class RegionFinder {
   }
 
   // Adds the region where faces are near a sphere; false if there are too many.
-  bool add_ball(const Sphere& ball, ShapeRegion& of_ball, ShapeRegion& other, const Box3d& both,
+  bool add_ball(const Ball& ball, ShapeRegion& of_ball, ShapeRegion& other, const Box3d& both,
                 double tolerance) {
     const auto faces = faces_near(shape_of(other), both);
     if (!faces) return false;
@@ -364,7 +368,7 @@ class RegionFinder {
 
 }  // namespace
 
-std::optional<CoincidentPair> find_coincident_pair(const Scene& scene) {
+std::optional<std::uint32_t> find_coincident_shape(const Scene& scene) {
   const std::vector<BoxedShape> on =
       shapes_of(scene, [](const Material& material) { return !opaque(material); });
   if (on.empty()) return std::nullopt;
@@ -381,7 +385,7 @@ std::optional<CoincidentPair> find_coincident_pair(const Scene& scene) {
       if (++pairs > kMaxPairs ||
           (near.intersects(other.box) &&
            may_coincide(scene.shapes[one.shape].shape, scene.shapes[other.shape].shape, tolerance, faces)))
-        return CoincidentPair{one.shape, other.shape};
+        return one.shape;
     }
   }
   return std::nullopt;
@@ -390,9 +394,9 @@ std::optional<CoincidentPair> find_coincident_pair(const Scene& scene) {
 std::optional<std::uint32_t> find_light_on_probe(const Scene& scene) {
   if (!is_probe(scene.camera) || scene.camera.motion) return std::nullopt;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-    const auto* emitter = std::get_if<AreaLight>(&scene.lights[i].kind);
-    if (emitter == nullptr || !emits(scene.lights[i])) continue;
-    const Shape& shape = scene.shapes[emitter->shape].shape;
+    const std::optional<std::uint32_t> surface = surface_of(scene.lights[i]);
+    if (!surface || !emits(scene.lights[i])) continue;
+    const Shape& shape = scene.shapes[*surface].shape;
     if (motion_of(shape) == nullptr &&
         std::ranges::any_of(kRepresentativePoints, [&](const std::array<float, 2>& u) {
           return starts_behind(scene.camera, {u[0], u[1]}, shape, scene.lights[i]);

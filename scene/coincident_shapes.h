@@ -16,18 +16,12 @@ namespace abbe {
 // from 0 in `Scene::shapes` or `Scene::lights`; "first" means the lowest index. A sheet is a transmitting
 // surface that does not enclose a medium.
 
-/// A shape, and the shape that it coincides with, as indices into `Scene::shapes`.
-struct CoincidentPair {
-  std::uint32_t shape;
-  std::uint32_t on;
-};
-
 /// Finds the first shape at which light may have to cross two coincident surfaces, by `may_coincide`:
 /// - a transmitting shape that coincides with an opaque one;
 /// - a sheet that coincides with the surface of a medium.
-/// Here `shape` is the transmitting one. Nothing if there is no such shape. If there are more than
-/// `kMaxPairs` pairs, the first pair that was not compared is returned.
-[[nodiscard]] std::optional<CoincidentPair> find_coincident_pair(const Scene& scene);
+/// Returns the index of the transmitting one; nothing if there is no such shape. If there are more than
+/// `kMaxPairs` pairs, it is that of the first pair that was not compared.
+[[nodiscard]] std::optional<std::uint32_t> find_coincident_shape(const Scene& scene);
 
 /// The first two shapes of which rays hit only one, by the lower index and then the other, and the number of
 /// further pairs.

@@ -118,25 +118,6 @@ void user_occluded(const RTCOccludedFunctionNArguments* args) {
       RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
 }
 
-template <typename S>
-unsigned primitives_of(const S& /*shape*/) {
-  return 1;
-}
-unsigned primitives_of(const TriangleSet& set) {
-  return static_cast<unsigned>(set.triangles.size());
-}
-unsigned primitives_of(const SceneInstance& /*moving*/) {
-  return kTimeSlices;
-}
-
-template <typename S>
-void set_user_callbacks(RTCGeometryTy* geometry, const S& /*shape*/) {
-  rtcSetGeometryBoundsFunction(
-      geometry, [](const RTCBoundsFunctionArguments* args) { user_bounds<S>(args); }, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, user_intersect<S>);
-  rtcSetGeometryOccludedFunction(geometry, user_occluded<S>);
-}
-
 // Bounding box of one slice of time.
 void moving_bounds(const RTCBoundsFunctionArguments* args) {
   const auto& moving = *static_cast<const SceneInstance*>(args->geometryUserPtr);
@@ -182,11 +163,8 @@ void moving_intersect(const RTCIntersectFunctionNArguments* args) {
   for (unsigned i = 0; i < args->N; ++i) {
     const std::size_t id = RTCRayN_id(rays, args->N, i);
     if (args->valid[i] == 0 || slice_of(context.rays[id].time) != args->primID) continue;
-    RTCRayHit query{ray_within(moving, context.rays[id], RTCRayN_tfar(rays, args->N, i),
-                               RTCRayN_mask(rays, args->N, i), id),
-                    {}};
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit query = without_hit(ray_within(moving, context.rays[id], RTCRayN_tfar(rays, args->N, i),
+                                             RTCRayN_mask(rays, args->N, i), id));
     rtcIntersect1(moving.of->scene.get(), args->context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     RTCRayN_tfar(rays, args->N, i) = query.ray.tfar;
@@ -206,13 +184,6 @@ void moving_occluded(const RTCOccludedFunctionNArguments* args) {
     rtcOccluded1(moving.of->scene.get(), args->context, &query);
     if (query.tfar < 0) RTCRayN_tfar(args->ray, args->N, i) = query.tfar;
   }
-}
-
-void set_user_callbacks(RTCGeometryTy* geometry, const SceneInstance& /*moving*/) {
-  rtcSetGeometryBoundsFunction(
-      geometry, [](const RTCBoundsFunctionArguments* args) { moving_bounds(args); }, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, moving_intersect);
-  rtcSetGeometryOccludedFunction(geometry, moving_occluded);
 }
 
 SurfaceHit surface_hit(const ShapeHit<double>& hit, const BasicRay<double>& ray, std::uint32_t shape,
@@ -301,11 +272,22 @@ void collect_hits(const RTCFilterFunctionNArguments* args) {
 }
 
 void set_callbacks(RTCGeometryTy* geometry, AttachedGeometry& attached) {
+  const auto set = [geometry](std::size_t primitives, RTCBoundsFunction bounds,
+                              RTCIntersectFunctionN intersect, RTCOccludedFunctionN occluded) {
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(primitives));
+    rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, intersect);
+    rtcSetGeometryOccludedFunction(geometry, occluded);
+  };
   std::visit(
-      [geometry](auto& shape) {
-        rtcSetGeometryUserPrimitiveCount(geometry, primitives_of(shape));
+      [&]<typename S>(S& shape) {
         rtcSetGeometryUserData(geometry, &shape);
-        set_user_callbacks(geometry, shape);
+        if constexpr (std::is_same_v<S, SceneInstance>)
+          set(kTimeSlices, moving_bounds, moving_intersect, moving_occluded);
+        else if constexpr (std::is_same_v<S, TriangleSet>)
+          set(shape.triangles.size(), user_bounds<S>, user_intersect<S>, user_occluded<S>);
+        else
+          set(1, user_bounds<S>, user_intersect<S>, user_occluded<S>);
       },
       attached);
 }

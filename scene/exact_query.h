@@ -76,9 +76,9 @@ void set_callbacks(RTCGeometryTy* geometry, AttachedGeometry& attached);
   return r;
 }
 
-/// An Embree query for a ray, without a hit yet.
-[[nodiscard]] inline RTCRayHit embree_query(const BasicRay<double>& ray) {
-  RTCRayHit query{embree_ray(ray), {}};
+/// An Embree query without a hit yet.
+[[nodiscard]] inline RTCRayHit without_hit(const RTCRay& ray) {
+  RTCRayHit query{ray, {}};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   return query;

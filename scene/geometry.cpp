@@ -104,6 +104,24 @@ bool needs_double_precision(const TriangleSet& set, std::size_t shape,
   });
 }
 
+// Makes Embree's representation of a shape that is no instance.
+struct Attacher {
+  bool with_normals;
+
+  template <typename S>
+  AttachedGeometry operator()(const S& shape) const {
+    if constexpr (Triangulated<S>) {
+      TriangleSet set = triangles_of(shape);
+      if (with_normals) set.normals.reserve(set.triangles.size());
+      if (with_normals)
+        for (std::size_t i = 0; i < set.triangles.size(); ++i) set.normals.emplace_back(normal_at(shape, i));
+      return set;
+    } else {
+      return shape;
+    }
+  }
+};
+
 BasicRay<double> exact(const Ray& ray) {
   return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max), ray.time};
 }
@@ -119,14 +137,7 @@ Geometry::Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<M
     if (const auto* placed = std::get_if<PlacedShape>(&instance.shape))
       attached_.emplace_back(SceneInstance{build_prototype(placed->of), placed->at});
     else
-      visit_plain(
-          [this](const auto& s) {
-            if constexpr (Triangulated<std::decay_t<decltype(s)>>)
-              attached_.emplace_back(with_normals(s));
-            else
-              attached_.emplace_back(s);
-          },
-          instance.shape);
+      attached_.push_back(visit_plain(Attacher{true}, instance.shape));
   }
   FaceFinder faces;
   scene_ = new_scene();
@@ -189,14 +200,8 @@ void Geometry::attach(RTCSceneTy* scene, std::uint32_t index, RTCGeometryTy* geo
 const InstancedScene* Geometry::build_prototype(const std::shared_ptr<const Prototype>& prototype) {
   std::unique_ptr<InstancedScene>& built = prototypes_[prototype.get()];
   if (built) return built.get();
-  const auto without_normals = [](const auto& s) -> AttachedGeometry {
-    if constexpr (Triangulated<std::decay_t<decltype(s)>>)
-      return triangles_of(s);
-    else
-      return s;
-  };
   built = std::make_unique<InstancedScene>(
-      InstancedScene{prototype, std::visit(without_normals, prototype->shape), new_scene()});
+      InstancedScene{prototype, std::visit(Attacher{false}, prototype->shape), new_scene()});
   attach(built->scene.get(), 0, geometry_of(device_.get(), built->geometry));
   commit(built->scene.get());
   return built.get();
@@ -216,7 +221,7 @@ std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
   ExactContext context(attached_);
   context.rays[0] = exact(ray);
   while (true) {
-    RTCRayHit query = embree_query(context.rays[0]);
+    RTCRayHit query = without_hit(embree_ray(context.rays[0]));
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     if (auto hit = resolve_nearest(query.hit, query.ray.tfar, context, 0)) return hit;
@@ -249,7 +254,7 @@ std::vector<SurfaceHit> Geometry::all_hits(const BasicRay<double>& ray, unsigned
   context.rays[0] = ray;
   context.all = &all;
   context.filter = collect_hits;
-  RTCRayHit query = embree_query(ray);
+  RTCRayHit query = without_hit(embree_ray(ray));
   query.ray.mask = mask;
   rtcIntersect1(scene_.get(), &context, &query);
   return all;
@@ -364,7 +369,7 @@ void Geometry::replay(std::span<const LoggedRay> rays) const {
   for (const LoggedRay& logged : rays) {
     ExactContext context(attached_);
     context.rays[0] = exact(logged.ray);
-    RTCRayHit query = embree_query(context.rays[0]);
+    RTCRayHit query = without_hit(embree_ray(context.rays[0]));
     if (logged.shadow)
       rtcOccluded1(scene_.get(), &context, &query.ray);
     else

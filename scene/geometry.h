@@ -28,8 +28,7 @@ struct SceneInstance {
   std::shared_ptr<const Placement> at;
 };
 /// Embree's representation of any shape of the scene.
-using AttachedGeometry =
-    Joined<Joined<std::variant<TriangleSet>, CurvedShape>::type, std::variant<SceneInstance>>::type;
+using AttachedGeometry = Joined<std::variant<TriangleSet>, CurvedShape, std::variant<SceneInstance>>::type;
 /// Embree scene with the one geometry of a prototype, in its coordinates; instances of it refer to it.
 struct InstancedScene {
   std::shared_ptr<const Prototype> prototype;
@@ -57,29 +56,18 @@ class Geometry {
   Geometry(const Geometry&) = delete;
   Geometry& operator=(const Geometry&) = delete;
 
-  /// Finds the nearest hit at t in (0, ray.t_max), boundaries of media included; nothing if the ray misses.
+  // The functions of `Scene` with these names. `scene` is that of the shapes. `wall_within_rounding` is for
+  // hits in the `near_wall_bounds` of their shapes.
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
-  /// Finds the nearest hit of each ray as if it were traced alone. `hits` has as many elements as `rays`.
   void intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const;
-  /// The surfaces that coincide with `hit`, the hit of `ray`, at the ray's time. The first is `hit` itself.
-  /// The others are parallel to it and within `Scene::coincidence_tolerance`, in order along the ray. Each
-  /// side of a shape counts once; hits after the first `CoincidentHits::kMaxHits` are left out. `scene` is
-  /// that of the shapes.
   [[nodiscard]] CoincidentHits coincident(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const;
-  /// True if an opaque surface is so close to `hit` that floats do not separate them: a ray transmitted in
-  /// the unit `direction` may start behind it. `Scene::transmission_may_leak` calls this for hits in the
-  /// shape's `near_wall_bounds`. `scene` is that of the shapes; `time` is that of the ray.
   [[nodiscard]] bool wall_within_rounding(const Scene& scene, const SurfaceHit& hit,
                                           const Imath::V3f& direction, float time) const;
-  /// True if the ray hits anything except boundaries of media at t in (0, ray.t_max), transmitting surfaces
-  /// included. The direction may have any length; t is in its units.
+  /// True if the ray hits anything except boundaries of media at t in (0, ray.t_max). The direction may have
+  /// any length; t is in its units.
   [[nodiscard]] bool occluded(const BasicRay<double>& ray) const;
-  /// Sets `blocked` to 1 for each ray that is occluded, otherwise to 0. It has as many elements as `rays`.
   void occluded(std::span<const BasicRay<double>> rays, std::span<std::uint8_t> blocked) const;
-  /// Traces every ray through Embree and discards the results.
   void replay(std::span<const LoggedRay> rays) const;
-
-  /// Number of triangles, counted once per instance. A quad has two, a sphere or disc none.
   [[nodiscard]] std::size_t triangle_count() const;
   /// Memory of Embree and of the shapes' data, in bytes; each prototype counts once.
   [[nodiscard]] std::size_t memory_bytes() const;

@@ -180,8 +180,7 @@ bool encloses(const Shape& shape, const Imath::V3d& point) {
 // True if a light lies in the shape or emits into it.
 bool is_illuminated(const Scene& scene, std::uint32_t enclosure) {
   return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
-    const auto* area = std::get_if<AreaLight>(&light.kind);
-    if (area != nullptr && area->shape == enclosure) return area->two_sided;
+    if (surface_of(light) == enclosure) return two_sided(light);
     if (motion_of(light, scene.shapes) != nullptr) return true;  // it may enter
     if (light.at_infinity()) return false;
     return std::ranges::any_of(kRepresentativePoints, [&](const std::array<float, 2>& u) {

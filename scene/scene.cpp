@@ -21,21 +21,15 @@ double tolerance_at(double size) {
   return 8 * float_step(size);
 }
 
-// Computes the volumes of shapes; that of a prototype once.
-struct VolumeVisitor {
-  std::map<const Prototype*, double> prototypes = {};
-
-  template <typename S>
-  double operator()(const S& shape) {
-    return enclosed_volume(shape);
-  }
-  double operator()(const PlacedShape& placed) {
-    const auto [volume, added] = prototypes.emplace(placed.of.get(), 0);
-    if (added)
-      volume->second = std::visit([](const auto& shape) { return enclosed_volume(shape); }, placed.of->shape);
-    return volume->second * std::abs(placed.at->to_world.determinant());
-  }
-};
+// Volume that a shape encloses. That of a prototype is computed once.
+double volume_of(const Shape& shape, std::map<const Prototype*, double>& of_prototypes) {
+  const auto volume = [&] { return visit_plain([](const auto& s) { return enclosed_volume(s); }, shape); };
+  const auto* placed = std::get_if<PlacedShape>(&shape);
+  if (placed == nullptr) return volume();
+  const auto [known, added] = of_prototypes.emplace(placed->of.get(), 0);
+  if (added) known->second = volume();
+  return known->second * std::abs(placed->at->to_world.determinant());
+}
 
 // Bounding box of all shapes of each material.
 std::vector<Imath::Box3d> boxes_of_materials(const Scene& scene) {
@@ -158,12 +152,12 @@ void Scene::measure_media() {
   for (ShapeInstance& instance : shapes)
     if (encloses_medium(materials[instance.material])) filled.push_back(&instance);
   if (filled.size() < 2) return;
-  VolumeVisitor volume_of;
-  for (ShapeInstance* instance : filled) instance->volume = std::visit(volume_of, instance->shape);
+  std::map<const Prototype*, double> of_prototypes;
+  for (ShapeInstance* instance : filled) instance->volume = volume_of(instance->shape, of_prototypes);
 }
 
 bool Scene::is_distant(const Light& light) const {
-  if (const auto* emitter = std::get_if<AreaLight>(&light.kind)) return shapes[emitter->shape].distant;
+  if (const auto surface = surface_of(light)) return shapes[*surface].distant;
   const Imath::V3f* at = light_position(light);
   return at != nullptr && (Imath::V3d(*at) - position(camera)).length() > far_threshold_m;
 }
@@ -176,11 +170,8 @@ void Scene::commit() {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (lights[i].at_infinity() && !lights[i].is_delta())
       background_.push_back(static_cast<std::uint32_t>(i));
-    auto* emitter = std::get_if<AreaLight>(&lights[i].kind);
-    if (emitter == nullptr) continue;
-    ShapeInstance& instance = shapes[emitter->shape];
-    instance.light = static_cast<std::int32_t>(i);
-    emitter->measure(instance.shape);
+    if (const auto surface = surface_of(lights[i])) shapes[*surface].light = static_cast<std::int32_t>(i);
+    measure(lights[i], shapes);
   }
   std::vector<NearWalls> walls = walls_near_shapes(*this);
   for (std::size_t i = 0; i < shapes.size(); ++i) {

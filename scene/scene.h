@@ -187,7 +187,8 @@ class Scene {
   /// where `spawn` puts them, so that no epsilon is needed.
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
   /// The surfaces that coincide at the ray's time with `hit`, the hit of `ray`, which is the first of them.
-  /// They are parallel and within `coincidence_tolerance`. Each side of a shape counts once.
+  /// They are parallel and within `coincidence_tolerance`, in order along the ray. Each side of a shape
+  /// counts once.
   [[nodiscard]] CoincidentHits coincident(const Ray& ray, const SurfaceHit& hit) const;
   /// True if a ray that is transmitted at `hit` in the unit `direction` may start behind an opaque surface.
   /// Floats do not separate the surface from a wall that crosses it or ends at it. Surfaces within

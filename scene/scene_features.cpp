@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
-#include <set>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -25,7 +23,7 @@ namespace {
 // fewer than one in 250 directions.
 constexpr double kSmallLight_sr = 0.05;
 
-constexpr std::array<FeatureName, 15> kFeatures{{
+constexpr std::array<FeatureName, 14> kFeatures{{
     {"dispersion", &SceneFeatures::dispersion, "a refractive index varies with wavelength"},
     {"media", &SceneFeatures::media, "a medium absorbs light"},
     {"scattering", &SceneFeatures::scattering, "a medium scatters light"},
@@ -41,8 +39,6 @@ constexpr std::array<FeatureName, 15> kFeatures{{
     {"textures", &SceneFeatures::textures,
      "a material, its relief or vertex normals vary over the surface, or the material is anisotropic"},
     {"delta_lights", &SceneFeatures::delta_lights, "point, spot or directional lights"},
-    {"narrow_bands", &SceneFeatures::narrow_bands,
-     "an emission or a response has features narrower than 10 nm"},
     {"polarisation_matters", &SceneFeatures::polarisation_relevant,
      "light polarised by one event may meet another that depends on polarisation"},
     {"depth_of_field", &SceneFeatures::depth_of_field, "a lens of finite aperture"},
@@ -120,6 +116,55 @@ bool varies(const ShapeInstance& instance, const Material& material) {
   return needs_coordinates(material) || (mesh != nullptr && !mesh->normals.empty());
 }
 
+// Number of consecutive events at the shape that a path may have, with 2 for any larger number, if nothing
+// else returns light to it. Light meets the outside of an opaque sphere once, but its inside repeatedly.
+int events_in_a_row(const Scene& scene, const ShapeInstance& instance) {
+  const Material& material = scene.materials[instance.material];
+  const Medium* contents = medium(material);
+  if (contents != nullptr && contents->scatters() && std::holds_alternative<RayleighPhase>(contents->phase))
+    return 2;
+  if (!polarises(material)) return 0;
+  if (plain<Mesh>(instance.shape) != nullptr) return 2;
+  if (is_flat(instance.shape)) return 1;
+  const auto ball = ball_of(instance.shape);
+  const bool views_outside = ball && !std::holds_alternative<PlacedShape>(instance.shape) &&
+                             (center(scene.camera) - ball->center).length() > ball->radius;
+  return opaque(material) && views_outside ? 1 : 2;
+}
+
+// The object that makes polarisation relevant: its kind and its name.
+struct PolarisationCause {
+  const char* kind;
+  std::string name;
+};
+
+// Finds the first object that makes polarisation affect what the film records: a channel with an analyser,
+// otherwise the light or shape at which two events suffice. The first event polarises the light: at a shape,
+// or the emission of a polarised light. The second, at a shape or in the lens, depends on the polarisation.
+// The result is conservative, because paths are not traced. Nothing if unpolarised transport is exact.
+std::optional<PolarisationCause> polarisation_cause(const Scene& scene) {
+  const auto analysing = std::find_if(scene.channels.begin(), scene.channels.end(),
+                                      [](const Channel& channel) { return channel.analyser.has_value(); });
+  if (analysing != scene.channels.end()) return PolarisationCause{"channel", analysing->name};
+  const auto polarised_light = std::find_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return light.polarisation.has_value();
+  });
+  const bool has_polarised_light = polarised_light != scene.lights.end();
+  const bool polarising_lens = traits(scene.camera).polarises;
+  if (has_polarised_light && polarising_lens) return PolarisationCause{"light", polarised_light->name};
+  const bool returns_light =
+      std::any_of(scene.shapes.begin(), scene.shapes.end(), [&scene](const ShapeInstance& instance) {
+        return preserves_polarisation(scene.materials[instance.material]);
+      });
+  int events = has_polarised_light || polarising_lens ? 1 : 0;
+  for (const ShapeInstance& instance : scene.shapes) {
+    const int here = events_in_a_row(scene, instance);
+    events += here;
+    if (events >= 2 || (here > 0 && returns_light)) return PolarisationCause{"shape", instance.name};
+  }
+  return std::nullopt;
+}
+
 void analyse_media(const Scene& scene, SceneFeatures& features) {
   const ShapeInstance* specular = nullptr;
   bool scattering = false;
@@ -146,7 +191,7 @@ void analyse_media(const Scene& scene, SceneFeatures& features) {
     require(features, &SceneFeatures::caustics, scattering && has_local_light, "shape", specular->name);
   const ShapeInstance* nested = nested_shape(scene);
   if (nested == nullptr)
-    if (const auto contact = find_coincident_pair(scene)) nested = &scene.shapes[contact->shape];
+    if (const auto contact = find_coincident_shape(scene)) nested = &scene.shapes[*contact];
   if (nested != nullptr) require(features, &SceneFeatures::nesting, true, "shape", nested->name);
   if (const auto polarising = polarisation_cause(scene))
     require(features, &SceneFeatures::polarisation_relevant, true, polarising->kind, polarising->name);
@@ -158,13 +203,9 @@ void analyse_lights(const Scene& scene, SceneFeatures& features) {
   const Viewpoints viewpoints = probe ? probe_viewpoints(scene) : centers;
   const bool photons_arrive =
       probe ? traits(scene.camera).opening && !centers.points.empty() : features.caustics;
-  std::set<const Curve*> examined;  // lights may share spectra
   for (const Light& light : scene.lights) {
     require(features, &SceneFeatures::environment, light.is_environment(), "light", light.name);
     require(features, &SceneFeatures::delta_lights, light.is_delta(), "light", light.name);
-    const Curve& emission = light.emission.base();
-    if (emits(light) && examined.insert(&emission).second)
-      require(features, &SceneFeatures::narrow_bands, has_narrow_feature(emission), "light", light.name);
     features.light_is_traced.push_back(photons_arrive && !light.is_environment() && emits(light) &&
                                        subtends_less(scene, light, viewpoints, kSmallLight_sr));
     require(features, &SceneFeatures::light_tracing, features.light_is_traced.back(), "light", light.name);
@@ -179,56 +220,7 @@ void analyse_motion(const Scene& scene, SceneFeatures& features) {
   require(features, &SceneFeatures::motion, scene.camera.motion != nullptr, "camera", "");
 }
 
-// Distance from the peak at knot `i` to the first fall to `level`, in steps of `step`; infinite if it exceeds
-// `max_distance`.
-double fall_distance(std::span<const Knot> knots, std::size_t i, std::ptrdiff_t step, double level,
-                     double max_distance) {
-  const auto count = static_cast<std::ptrdiff_t>(knots.size());
-  for (auto j = static_cast<std::ptrdiff_t>(i) + step; j >= 0 && j < count; j += step) {
-    const Knot& knot = knots[static_cast<std::size_t>(j)];
-    const Knot& before = knots[static_cast<std::size_t>(j - step)];
-    const double value = std::abs(knot.value);
-    if (std::abs(before.wavelength_nm - knots[i].wavelength_nm) > max_distance) break;
-    if (value >= level) continue;
-    const double fraction = (std::abs(before.value) - level) / (std::abs(before.value) - value);
-    return std::abs(before.wavelength_nm + fraction * (knot.wavelength_nm - before.wavelength_nm) -
-                    knots[i].wavelength_nm);
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
-bool holds_camera(const Sphere& sphere, const Scene& scene) {
-  return (center(scene.camera) - sphere.center).length() <= sphere.radius;
-}
-
-// Number of consecutive events at the shape that a path may have, with 2 for any larger number, if nothing
-// else returns light to it. Light meets the outside of an opaque sphere once, but its inside repeatedly.
-int events_in_a_row(const Scene& scene, const ShapeInstance& instance) {
-  const Material& material = scene.materials[instance.material];
-  const Medium* contents = medium(material);
-  if (contents != nullptr && contents->scatters() && std::holds_alternative<RayleighPhase>(contents->phase))
-    return 2;
-  if (!polarises(material)) return 0;
-  if (plain<Mesh>(instance.shape) != nullptr) return 2;
-  if (is_flat(instance.shape)) return 1;
-  const auto* plain_sphere = std::get_if<Sphere>(&instance.shape);
-  return opaque(material) && plain_sphere != nullptr && !holds_camera(*plain_sphere, scene) ? 1 : 2;
-}
-
 }  // namespace
-
-bool has_narrow_feature(const Curve& curve, double width_nm) {
-  const std::span<const Knot> knots = curve.knots();
-  const double significant = 0.1 * std::max(std::abs(curve.max()), std::abs(curve.min()));
-  for (std::size_t i = 0; i < knots.size(); ++i) {
-    const double peak = std::abs(knots[i].value);
-    if (!(peak > 0 && peak >= significant)) continue;
-    if (fall_distance(knots, i, -1, peak / 2, width_nm) + fall_distance(knots, i, 1, peak / 2, width_nm) <
-        width_nm)
-      return true;
-  }
-  return false;
-}
 
 std::span<const FeatureName> feature_names() {
   return kFeatures;
@@ -238,39 +230,11 @@ SceneFeatures analyse(const Scene& scene) {
   SceneFeatures features;
   analyse_media(scene, features);
   analyse_lights(scene, features);
-  for (const Channel& channel : scene.channels) {
-    require(features, &SceneFeatures::narrow_bands, has_narrow_feature(channel.weight), "channel",
-            channel.name);
+  for (const Channel& channel : scene.channels)
     require(features, &SceneFeatures::angular_response, channel.angular.has_value(), "channel", channel.name);
-  }
   analyse_motion(scene, features);
   require(features, &SceneFeatures::depth_of_field, traits(scene.camera).depth_of_field, "camera", "");
   return features;
-}
-
-// A sensor that measures polarisation always needs it. A polarised light counts as a first event and a
-// polarising lens as a last one.
-std::optional<PolarisationCause> polarisation_cause(const Scene& scene) {
-  const auto analysing = std::find_if(scene.channels.begin(), scene.channels.end(),
-                                      [](const Channel& channel) { return channel.analyser.has_value(); });
-  if (analysing != scene.channels.end()) return PolarisationCause{"channel", analysing->name};
-  const auto polarised_light = std::find_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-    return light.polarisation.has_value();
-  });
-  const bool has_polarised_light = polarised_light != scene.lights.end();
-  const bool polarising_lens = traits(scene.camera).polarises;
-  if (has_polarised_light && polarising_lens) return PolarisationCause{"light", polarised_light->name};
-  const bool returns_light =
-      std::any_of(scene.shapes.begin(), scene.shapes.end(), [&scene](const ShapeInstance& instance) {
-        return preserves_polarisation(scene.materials[instance.material]);
-      });
-  int events = has_polarised_light || polarising_lens ? 1 : 0;
-  for (const ShapeInstance& instance : scene.shapes) {
-    const int here = events_in_a_row(scene, instance);
-    events += here;
-    if (events >= 2 || (here > 0 && returns_light)) return PolarisationCause{"shape", instance.name};
-  }
-  return std::nullopt;
 }
 
 bool carries_polarisation(const Scene& scene) {

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "spectral/curve.h"
-
 namespace abbe {
 
 class Scene;
@@ -30,7 +28,6 @@ struct SceneFeatures {
       false;              ///< Some environment light exists: light arrives from infinity in all directions.
   bool textures = false;  ///< Some BSDF needs texture coordinates, or some mesh has vertex normals.
   bool delta_lights = false;  ///< Some light is a point, spot or directional light.
-  bool narrow_bands = false;  ///< Some emission or response has features narrower than 10 nm.
   /// Polarisation affects the power of some path: one event polarises light, and a later one or the camera
   /// depends on polarisation.
   bool polarisation_relevant = false;
@@ -58,26 +55,6 @@ struct FeatureName {
 /// Determines the features of a scene whose bounds and volumes are known; `Scene::commit` calls it. Never
 /// throws.
 [[nodiscard]] SceneFeatures analyse(const Scene& scene);
-
-/// True if a curve has a narrow peak: its height is at least a tenth of the curve's maximum, and its full
-/// width at half its own height is less than `width_nm`. Magnitudes count, so dips below zero are peaks too.
-[[nodiscard]] bool has_narrow_feature(const Curve& curve, double width_nm = 10);
-
-class Scene;
-
-/// The object that makes polarisation relevant: its kind, "channel", "light" or "shape", and its name in the
-/// scene.
-struct PolarisationCause {
-  const char* kind;
-  std::string name;
-};
-
-/// Finds the first object that makes polarisation affect what the film records: a channel with a polarisation
-/// analyser, otherwise the light or shape at which two events suffice. One event polarises the light: at a
-/// shape, or the emission of a polarised light. A second one, at a shape or in the camera's lens, depends on
-/// the polarisation. The result is conservative, because paths are not traced. Nothing if unpolarised
-/// transport is exact.
-[[nodiscard]] std::optional<PolarisationCause> polarisation_cause(const Scene& scene);
 
 /// True if paths of the scene carry polarisation: `features.polarisation_relevant`, and the render settings
 /// do not turn it off. Requires `Scene::commit`.

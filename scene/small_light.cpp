@@ -80,16 +80,16 @@ Viewpoints probe_viewpoints(const Scene& scene) {
 }
 
 bool subtends_less(const Scene& scene, const Light& light, const Viewpoints& from, double limit_sr) {
-  const auto* emitter = std::get_if<AreaLight>(&light.kind);
-  if (emitter == nullptr) return solid_angle(light) < limit_sr;
-  const Shape& shape = scene.shapes[emitter->shape].shape;
+  const std::optional<std::uint32_t> own = surface_of(light);
+  if (!own) return solid_angle(light) < limit_sr;
+  const Shape& shape = scene.shapes[*own].shape;
   const Imath::V3d center = bounds(shape).center();
   const Imath::Box3d box = box_at_opening(shape);
   const double half_size = box.size().length() / 2;
   const double cosine = 1 - limit_sr / (2 * std::numbers::pi);
   const double min_distance = half_size / std::sqrt((1 - cosine) * (1 + cosine));
   const double max_distance = min_distance + bounds(shape).size().length() / 2 - half_size;
-  const auto is_other_shape = [&](const Viewpoint& viewpoint) { return viewpoint.shape != emitter->shape; };
+  const auto is_other_shape = [&](const Viewpoint& viewpoint) { return viewpoint.shape != *own; };
   const auto distance_to_enclosing = [&](const Viewpoint& viewpoint) {
     return viewpoint.shape ? enclosing_distance(scene.shapes[*viewpoint.shape].shape, box.center()) : 0;
   };

@@ -2,10 +2,10 @@
 
 namespace abbe {
 
-/// A measured mean and its standard error.
+/// A measured mean and its standard error, which is 0 for a value that is not sampled.
 struct Estimate {
   double mean;
-  double standard_error;
+  double standard_error = 0;
 };
 
 /// Half width of an interval in standard errors. A normal variable lies outside it, on either side, with

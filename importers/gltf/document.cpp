@@ -29,13 +29,13 @@ bool read_document(Document& document) {
   std::string bytes;
   MemoryReservation reservation(importer.inputs, 0);
   if (const auto fault = read_mesh_bytes(document.file, bytes, reservation)) {
-    importer.diagnostics.error(where, *fault, ErrorCode::input);
+    importer.fail(where, *fault, ErrorCode::input);
     return false;
   }
   if (importer.inputs != nullptr) importer.inputs->add_file(document.file);
   const auto json = gltf_json(bytes);
   if (!json) {
-    importer.diagnostics.error(where, kBadGlb, ErrorCode::input);
+    importer.fail(where, kBadGlb, ErrorCode::input);
     return false;
   }
   auto root =
@@ -68,8 +68,7 @@ const JsonValue* element(const Document& document, std::string_view name, const 
   const auto* number = std::get_if<double>(&index->value);
   if (number && *number >= 0 && *number < static_cast<double>(all.size()))
     return &all[static_cast<std::size_t>(*number)];
-  document.importer.diagnostics.error(index->where,
-                                      fmt::format("\"{}\" has no element with this index", name));
+  document.importer.fail(index->where, fmt::format("\"{}\" has no element with this index", name));
   return nullptr;
 }
 
@@ -99,8 +98,8 @@ LinearRgb colour(const JsonValue* object, std::string_view path, const LinearRgb
   const auto values = read_numbers(*found, 0, Range::unit(), document.importer.diagnostics);
   if (!values) return fallback;
   if (values->size() == 3 || values->size() == 4) return {(*values)[0], (*values)[1], (*values)[2]};
-  document.importer.diagnostics.error(
-      found->where, fmt::format("a colour has three or four numbers (got {})", values->size()));
+  document.importer.fail(found->where,
+                         fmt::format("a colour has three or four numbers (got {})", values->size()));
   return fallback;
 }
 
@@ -282,7 +281,6 @@ void set_surface(const JsonValue* material, const SourcePosition& where, spec::M
   to.model = std::move(surface);
 }
 
-// Notes the remaining properties that Abbe cannot represent.
 void note_unsupported_keys(const JsonValue* material, const SourcePosition& where, const Document& document) {
   SceneImporter& importer = document.importer;
   for (const std::string_view texture :
@@ -345,7 +343,7 @@ std::optional<spec::Emission> emission_of(const JsonValue* material, const Docum
       number(material, extension("materials_emissive_strength", "emissiveStrength"), 1, document);
   const ImportedLightSpectrum light =
       light_spectrum_of(rgb, luminance / kLuminousEfficacy, material->where, document.importer);
-  return importers::emission_of<spec::MeshEmission, spec::Quantity::luminance>(light);
+  return importers::emission_of<spec::Quantity::luminance>(light);
 }
 
 }  // namespace abbe::importers::gltf

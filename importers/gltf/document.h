@@ -13,9 +13,6 @@
 
 namespace abbe::importers::gltf {
 
-// Errors go to `Document::importer.diagnostics`; approximations and losses go to `SceneImporter::note`.
-// Functions throw Error{resource} if the memory limit of `Document::importer.inputs` is exceeded.
-
 /// A glTF file and the importer that receives its scene.
 struct Document {
   SceneImporter& importer;

@@ -51,8 +51,7 @@ M44d local_transform(const JsonValue& node, const Document& document) {
   if (const auto s = numbers(&node, "scale", 3, document)) transform = scaling({(*s)[0], (*s)[1], (*s)[2]});
   if (const auto q = numbers(&node, "rotation", 4, document)) {
     if (*q == std::vector<double>(4, 0.0))
-      document.importer.diagnostics.error(find(&node, "rotation")->where,
-                                          "a rotation quaternion must not be 0");
+      document.importer.fail(find(&node, "rotation")->where, "a rotation quaternion must not be 0");
     transform = transform * Imath::Quatd((*q)[3], (*q)[0], (*q)[1], (*q)[2]).normalized().toMatrix44();
   }
   if (const auto t = numbers(&node, "translation", 3, document))
@@ -89,7 +88,6 @@ void set_view_camera(const View& view, const Document& document) {
   set_camera(imported, importer);
 }
 
-// Sets the first perspective camera or, without any, the first camera.
 void set_camera_from_views(const std::vector<View>& views, const Document& document) {
   const auto perspective = std::ranges::find_if(views, is_perspective);
   const auto chosen = perspective == views.end() ? views.begin() : perspective;
@@ -131,27 +129,20 @@ void add_light(const JsonValue& light, const M44d& transform, const Document& do
   if (find(&light, "range") != nullptr)
     document.importer.note(light.where, "a range of lights is not supported: dropped");
   if (type == "point") {
-    append_light(
-        spec::PointLightSource{
-            {at}, importers::emission_of<spec::PointEmission, Quantity::luminous_intensity>(emitted)},
-        light.where, document.importer);
+    append_light<spec::PointLightSource, Quantity::luminous_intensity>({at}, emitted, light.where,
+                                                                       document.importer);
   } else if (type == "spot") {
     const double inner = number(&light, "spot/innerConeAngle", 0, document) / kDegree;
     const double outer = number(&light, "spot/outerConeAngle", std::numbers::pi / 4, document) / kDegree;
-    append_light(
-        spec::SpotLightSource{
-            {at, along, hard_cone(inner, outer, Falloff::squared_cosine, light.where, document.importer)},
-            importers::emission_of<spec::PointEmission, Quantity::luminous_intensity>(emitted)},
-        light.where, document.importer);
+    const double half_angle =
+        hard_cone(inner, outer, Falloff::squared_cosine, light.where, document.importer);
+    append_light<spec::SpotLightSource, Quantity::luminous_intensity>({at, along, half_angle}, emitted,
+                                                                      light.where, document.importer);
   } else if (type == "directional") {
-    spec::DirectionalLightSource directional;
-    directional.source.towards = -along;
-    directional.emission =
-        importers::emission_of<spec::DirectionalLightEmission, Quantity::illuminance>(emitted);
-    append_light(directional, light.where, document.importer);
+    append_light<spec::DirectionalLightSource, Quantity::illuminance>({-along, {}}, emitted, light.where,
+                                                                      document.importer);
   } else {
-    document.importer.diagnostics.error(
-        light.where, unknown_name("light", type, std::vector<std::string>{"directional", "point", "spot"}));
+    document.importer.is_known("light", type, {"directional", "point", "spot"}, light.where);
   }
 }
 
@@ -166,7 +157,6 @@ void note_extensions(const JsonValue& object, std::string_view of, const Documen
                              fmt::format("{} of {} is not supported: dropped", member.first, of));
 }
 
-// Notes attributes of a primitive that Abbe cannot represent.
 void note_unsupported_attributes(const JsonValue& primitive, const Document& document) {
   SceneImporter& importer = document.importer;
   if (find(&primitive, "targets") != nullptr)
@@ -211,7 +201,7 @@ SceneContents traverse_nodes(const Document& document) {
   const JsonValue* scene = chosen           ? element(document, "scenes", chosen)
                            : scenes.empty() ? nullptr
                                             : &scenes.front();
-  if (scene == nullptr) document.importer.diagnostics.error(document.root.where, "the file has no scene");
+  if (scene == nullptr) document.importer.fail(document.root.where, "the file has no scene");
   note_extensions(document.root, "the file", document);
   if (!list(&document.root, "animations").empty())
     document.importer.note(find(&document.root, "animations")->where,
@@ -236,7 +226,6 @@ SceneContents traverse_nodes(const Document& document) {
   return contents;
 }
 
-// Adds the triangles of one material as a shape.
 void add_shape(std::optional<std::size_t> number, const std::string& name, const Document& document) {
   SceneImporter& importer = document.importer;
   const JsonValue* material = number ? &list(&document.root, "materials")[*number] : nullptr;

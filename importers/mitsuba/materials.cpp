@@ -31,7 +31,6 @@ constexpr std::array<NamedIndex, 23> kDielectrics{
      {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
      {"pet", 1.575},       {"diamond", 2.419}}};
 
-/// A metal of Mitsuba for which Abbe ships a table.
 struct NamedMetal {
   std::string_view source_name;  ///< Case-sensitive name in Mitsuba.
   std::string_view table_name;   ///< Name of the table of n and k that Abbe ships.
@@ -60,30 +59,29 @@ const std::vector<std::string> kMaterialTypes{
 
 using Phase = decltype(spec::Scattering::phase);
 
-Phase phase_of(const Object& medium, const ImportState& state) {
+Phase phase_of(const Object& medium) {
   const auto phases = medium.all("phase");
   if (phases.empty()) return std::nullopt;
-  const Object phase(*phases.front(), state);
+  const Object phase(*phases.front(), medium.state());
   if (phase.type() == "hg") return {{{spec::HenyeyGreenstein{phase.number("g", 0.8)}}, phase.where()}};
   if (phase.type() == "rayleigh") return {{{spec::PhaseWord::rayleigh}, phase.where()}};
   if (phase.type() != "isotropic")
-    state.importer.note(
-        phase.where(),
+    phase.note(
         fmt::format("a phase function \"{}\" is not supported: isotropic scattering is used", phase.type()));
   return std::nullopt;
 }
 
 // The product of a dimensionless factor and an extinction coefficient, each a number or a spectrum.
 spec::Curve product_of(const Spectrum& fraction, const Spectrum& extinction, const SourcePosition& where,
-                       const ImportState& state) {
+                       SceneImporter& importer) {
   if (const auto* number = std::get_if<double>(&fraction))
-    return curve_of(scaled(extinction, *number), where, state.importer);
+    return curve_of(scaled(extinction, *number), where, importer);
   if (const auto* number = std::get_if<double>(&extinction))
-    return curve_of(scaled(fraction, *number), where, state.importer);
+    return curve_of(scaled(fraction, *number), where, importer);
   spec::Curve curve;
   curve.where = where;
-  const std::vector<spec::Curve> factors{curve_of(fraction, where, state.importer),
-                                         curve_of(extinction, where, state.importer)};
+  const std::vector<spec::Curve> factors{curve_of(fraction, where, importer),
+                                         curve_of(extinction, where, importer)};
   curve.value = spec::CurveFormula{spec::Product{{factors}}};
   return curve;
 }
@@ -94,7 +92,6 @@ Samples one_minus(Samples fraction) {
   return extend_constant(std::move(fraction), 1);
 }
 
-// 1 - fraction.
 Spectrum one_minus(const Spectrum& fraction) {
   if (const auto* rgb = std::get_if<LinearRgb>(&fraction))
     return LinearRgb{1 - (*rgb)[0], 1 - (*rgb)[1], 1 - (*rgb)[2]};
@@ -104,20 +101,18 @@ Spectrum one_minus(const Spectrum& fraction) {
 
 // Converts a homogeneous <medium>; its "sigma_t" is in 1/m. Other types of medium are noted and become empty,
 // without absorption and scattering. Unsupported phase functions are noted and become isotropic.
-spec::Medium medium_of(const Object& medium, const ImportState& state) {
+spec::Medium medium_of(const Object& medium) {
   spec::Medium result;
-  state.importer.note_medium(medium.where());
+  medium.importer().note_medium(medium.where());
   if (medium.type() != "homogeneous") {
-    state.importer.note(
-        medium.where(),
-        fmt::format("a medium \"{}\" is not supported: replaced by an empty one", medium.type()));
+    medium.note(fmt::format("a medium \"{}\" is not supported: replaced by an empty one", medium.type()));
     return result;
   }
-  const Spectrum albedo = spectrum(medium, "albedo", 0.75, state);
-  const Spectrum extinction = scaled(spectrum(medium, "sigma_t", 1.0, state), medium.number("scale", 1));
-  result.absorption_per_m = product_of(one_minus(albedo), extinction, medium.where(), state);
-  result.scattering.per_m = product_of(albedo, extinction, medium.where(), state);
-  result.scattering.phase = phase_of(medium, state);
+  const Spectrum albedo = spectrum(medium, "albedo", 0.75);
+  const Spectrum extinction = scaled(spectrum(medium, "sigma_t", 1.0), medium.number("scale", 1));
+  result.absorption_per_m = product_of(one_minus(albedo), extinction, medium.where(), medium.importer());
+  result.scattering.per_m = product_of(albedo, extinction, medium.where(), medium.importer());
+  result.scattering.phase = phase_of(medium);
   medium.ignore({"sample_emitters", "has_spectral_extinction"});
   medium.note_unused();
   return result;
@@ -131,15 +126,14 @@ std::optional<double> named_index(const std::string& name) {
 }
 
 // Refractive index of a property, which is a number or a name.
-double index_number(const Object& bsdf, std::string_view name, std::string_view fallback,
-                    const ImportState& state) {
+double index_number(const Object& bsdf, std::string_view name, std::string_view fallback) {
   const Element* found = bsdf.find(name, {"float", "string", "spectrum"});
-  if (found != nullptr && found->tag != "string") return number(bsdf, name, 1.5, state);
+  if (found != nullptr && found->tag != "string") return number(bsdf, name, 1.5);
   const std::string index_name = found ? (*found)["value"] : std::string(fallback);
   if (const auto known = named_index(index_name)) return *known;
   std::vector<std::string> names;
   for (const NamedIndex& index : kDielectrics) names.emplace_back(index.name);
-  state.importer.diagnostics.error(found->where, unknown_name("dielectric", index_name, names));
+  bsdf.importer().fail(found->where, unknown_name("dielectric", index_name, names));
   return 1.5;
 }
 
@@ -152,10 +146,9 @@ std::optional<double> interior_index(const Element& bsdf) {
   return number ? number : named_index(value);
 }
 
-// True if `index` is the interior index of another dielectric of the scene.
-bool matches_other_dielectric(double index, const Object& bsdf, const ImportState& state) {
+bool matches_other_dielectric(double index, const Object& bsdf) {
   constexpr double kSameIndex = 0.005;  // 1.33 and 1.333 both mean water.
-  return std::ranges::any_of(state.interior_indices, [&](const auto& entry) {
+  return std::ranges::any_of(bsdf.state().interior_indices, [&](const auto& entry) {
     return entry.first != &bsdf.element() && std::abs(entry.second - index) <= kSameIndex;
   });
 }
@@ -168,54 +161,51 @@ struct SurfaceIndex {
   spec::Ior ior;
 };
 
-SurfaceIndex surface_index(const Object& bsdf, std::string_view fallback, const ImportState& state) {
+SurfaceIndex surface_index(const Object& bsdf, std::string_view fallback) {
   constexpr double kGas = 1.001;  // Smaller indices count as air.
-  const double interior = index_number(bsdf, "int_ior", fallback, state);
-  const double exterior = index_number(bsdf, "ext_ior", "air", state);
+  const double interior = index_number(bsdf, "int_ior", fallback);
+  const double exterior = index_number(bsdf, "ext_ior", "air");
   SurfaceIndex index{interior / exterior, {}};
   index.ior.value = index.relative;
   index.ior.where = bsdf.where();
   if (exterior <= kGas) return index;
-  if (matches_other_dielectric(exterior, bsdf, state)) {
+  if (matches_other_dielectric(exterior, bsdf)) {
     index.ior.value = interior / *named_index("air");
-    state.importer.note(bsdf.position_of("ext_ior"),
-                        "\"ext_ior\" is the index of another dielectric of the scene: Abbe takes the "
-                        "exterior medium from the closed shape around the surface, or air");
+    bsdf.importer().note(bsdf.position_of("ext_ior"),
+                         "\"ext_ior\" is the index of another dielectric of the scene: Abbe takes the "
+                         "exterior medium from the closed shape around the surface, or air");
   } else {
-    state.importer.note(bsdf.position_of("ext_ior"),
-                        "\"ext_ior\" is not the index of another dielectric of the scene: the relative index "
-                        "is kept, which is right outside all closed shapes");
+    bsdf.importer().note(
+        bsdf.position_of("ext_ior"),
+        "\"ext_ior\" is not the index of another dielectric of the scene: the relative index "
+        "is kept, which is right outside all closed shapes");
   }
   return index;
 }
 
-// Notes reflectance factors, which have no physical counterpart.
-void note_reflectance_factors(const Object& bsdf, const ImportState& state) {
+void note_reflectance_factors(const Object& bsdf) {
   for (const char* name : {"specular_reflectance", "specular_transmittance"})
-    if (bsdf.has(name) && number_of(spectrum(bsdf, name, 1.0, state)) != 1.0)
-      state.importer.note(bsdf.where(), fmt::format("\"{}\" is not supported: dropped", name));
+    if (bsdf.has(name) && number_of(spectrum(bsdf, name, 1.0)) != 1.0)
+      bsdf.note(fmt::format("\"{}\" is not supported: dropped", name));
 }
 
-std::optional<spec::Roughness> roughness(const Object& bsdf, const ImportState& state) {
+std::optional<spec::Roughness> roughness(const Object& bsdf) {
   if (!bsdf.type().starts_with("rough")) return std::nullopt;
-  const double both = number(bsdf, "alpha", 0.1, state);
+  const double both = number(bsdf, "alpha", 0.1);
   const std::string distribution = lower_case(bsdf.text("distribution", "beckmann"));
-  const std::vector<std::string> distributions{"beckmann", "ggx"};
-  if (std::ranges::find(distributions, distribution) == distributions.end())
-    state.importer.diagnostics.error(bsdf.position_of("distribution"),
-                                     unknown_name("distribution", distribution, distributions));
+  bsdf.importer().is_known("distribution", distribution, {"beckmann", "ggx"},
+                           bsdf.position_of("distribution"));
   bsdf.ignore({"sample_visible"});
-  return roughness_of(number(bsdf, "alpha_u", both, state), number(bsdf, "alpha_v", both, state),
+  return roughness_of(number(bsdf, "alpha_u", both), number(bsdf, "alpha_v", both),
                       distribution == "beckmann" ? FacetShape::beckmann : FacetShape::ggx, bsdf.where(),
-                      state.importer);
+                      bsdf.importer());
 }
 
-spec::Ior metal_index(const Object& bsdf, const ImportState& state) {
+spec::Ior metal_index(const Object& bsdf) {
   spec::Ior ior;
   ior.where = bsdf.where();
   if (bsdf.has("eta") || bsdf.has("k"))
-    return index_of(spectrum(bsdf, "eta", 0.0, state), spectrum(bsdf, "k", 1.0, state), bsdf.where(),
-                    state.importer);
+    return index_of(spectrum(bsdf, "eta", 0.0), spectrum(bsdf, "k", 1.0), bsdf.where(), bsdf.importer());
   const std::string name = bsdf.text("material", "none");
   ior.value = spec::MetalIor{{0, 0}};  // n = k = 0 reflects everything.
   if (name == "none") return ior;
@@ -226,22 +216,22 @@ spec::Ior metal_index(const Object& bsdf, const ImportState& state) {
   }
   std::vector<std::string> names;
   for (const NamedMetal& metal : kMetals) names.emplace_back(metal.source_name);
-  state.importer.diagnostics.error(bsdf.where(), unknown_name("metal", name, names));
+  bsdf.fail(unknown_name("metal", name, names));
   return ior;
 }
 
-spec::Conductor conductor(const Object& bsdf, const ImportState& state) {
-  note_reflectance_factors(bsdf, state);
-  return {metal_index(bsdf, state), {}, roughness(bsdf, state)};
+spec::Conductor conductor(const Object& bsdf) {
+  note_reflectance_factors(bsdf);
+  return {metal_index(bsdf), {}, roughness(bsdf)};
 }
 
-spec::Dielectric dielectric(const Object& bsdf, const Element* interior, const ImportState& state) {
-  note_reflectance_factors(bsdf, state);
+spec::Dielectric dielectric(const Object& bsdf, const Element* interior) {
+  note_reflectance_factors(bsdf);
   spec::Dielectric glass;
-  glass.ior.ior = surface_index(bsdf, kGlass, state).ior;
-  glass.roughness = roughness(bsdf, state);
+  glass.ior.ior = surface_index(bsdf, kGlass).ior;
+  glass.roughness = roughness(bsdf);
   if (interior == nullptr) return glass;
-  const spec::Medium medium = medium_of(Object(*interior, state), state);
+  const spec::Medium medium = medium_of(Object(*interior, bsdf.state()));
   glass.ior.absorption_per_m = medium.absorption_per_m;
   glass.scattering = medium.scattering;
   return glass;
@@ -251,56 +241,54 @@ spec::Dielectric dielectric(const Object& bsdf, const Element* interior, const I
 // base again. Mitsuba does so only if "nonlinear" is true; otherwise it applies a factor 1/(1 - r)
 // independent of the base, with r the coat's internal reflectance for diffuse light. Both agree for the base
 // reflectance rho' with rho'/(1 - rho' r) = rho/(1 - r).
-spec::Reflectance base_reflectance(const Object& bsdf, double n, VDirection v, const ImportState& state) {
+spec::Reflectance base_reflectance(const Object& bsdf, double n, VDirection v) {
   constexpr std::string_view kName = "diffuse_reflectance";
-  if (bsdf.boolean("nonlinear", false)) return reflectance(bsdf, kName, 0.5, v, state);
-  TextureValue value = texture(bsdf, kName, 0.5, v, state);
+  if (bsdf.boolean("nonlinear", false)) return reflectance(bsdf, kName, 0.5, v);
+  TextureValue value = texture(bsdf, kName, 0.5, v);
   if (auto* image = std::get_if<spec::Texture>(&value)) {
-    state.importer.note(bsdf.position_of(kName),
-                        "an image under a clear coat is darker and more saturated than in Mitsuba: it is "
-                        "rendered as with \"nonlinear\"");
+    bsdf.importer().note(bsdf.position_of(kName),
+                         "an image under a clear coat is darker and more saturated than in Mitsuba: it is "
+                         "rendered as with \"nonlinear\"");
     return std::move(*image);
   }
   const double r = diffuse_reflectance_inside(n);
   const auto equivalent = [r](double rho) { return rho / (1 - r + rho * r); };
   const auto& spectrum = std::get<Spectrum>(value);
-  if (auto curve = mapped_curve_of(spectrum, equivalent, bsdf.position_of(kName), state.importer))
+  if (auto curve = mapped_curve_of(spectrum, equivalent, bsdf.position_of(kName), bsdf.importer()))
     return *curve;
-  return curve_of(spectrum, bsdf.position_of(kName), state.importer);
+  return curve_of(spectrum, bsdf.position_of(kName), bsdf.importer());
 }
 
-spec::CoatedDiffuse plastic(const Object& bsdf, VDirection v, const ImportState& state) {
-  note_reflectance_factors(bsdf, state);
-  if (bsdf.type() == "roughplastic")
-    state.importer.note(bsdf.where(), "roughness of a clear coat is not supported: dropped");
+spec::CoatedDiffuse plastic(const Object& bsdf, VDirection v) {
+  note_reflectance_factors(bsdf);
+  if (bsdf.type() == "roughplastic") bsdf.note("roughness of a clear coat is not supported: dropped");
   bsdf.ignore({"alpha", "distribution", "sample_visible"});
-  SurfaceIndex coat = surface_index(bsdf, "polypropylene", state);
-  spec::Reflectance paint = base_reflectance(bsdf, coat.relative, v, state);
+  SurfaceIndex coat = surface_index(bsdf, "polypropylene");
+  spec::Reflectance paint = base_reflectance(bsdf, coat.relative, v);
   return {std::move(coat.ior), std::move(paint)};
 }
 
-spec::Principled principled(const Object& bsdf, VDirection v, const ImportState& state) {
+spec::Principled principled(const Object& bsdf, VDirection v) {
   spec::Principled model;
-  model.base_color = reflectance(bsdf, "base_color", 0.5, v, state);
-  model.metallic = number(bsdf, "metallic", 0, state);
-  model.roughness = number(bsdf, "roughness", 0.5, state);
-  model.specular = number(bsdf, "specular", 0.5, state);
-  model.sheen = number(bsdf, "sheen", 0, state);
-  model.clearcoat = number(bsdf, "clearcoat", 0, state);
-  model.clearcoat_gloss = number(bsdf, "clearcoat_gloss", 0, state);
+  model.base_color = reflectance(bsdf, "base_color", 0.5, v);
+  model.metallic = number(bsdf, "metallic", 0);
+  model.roughness = number(bsdf, "roughness", 0.5);
+  model.specular = number(bsdf, "specular", 0.5);
+  model.sheen = number(bsdf, "sheen", 0);
+  model.clearcoat = number(bsdf, "clearcoat", 0);
+  model.clearcoat_gloss = number(bsdf, "clearcoat_gloss", 0);
   return model;
 }
 
-// The material inside a wrapper; nullptr if there is none.
 const Element* inner_bsdf(const Object& bsdf) {
   const auto inner = bsdf.all("bsdf");
   return inner.empty() ? nullptr : inner.front();
 }
 
-spec::Diffuse replacement(const Object& bsdf, VDirection v, const ImportState& state) {
+spec::Diffuse replacement(const Object& bsdf, VDirection v) {
   for (const char* name : {"reflectance", "base_color", "diffuse_reflectance"})
-    if (bsdf.has(name)) return {reflectance(bsdf, name, 0.5, v, state)};
-  return {curve_of(0.5, bsdf.where(), state.importer)};
+    if (bsdf.has(name)) return {reflectance(bsdf, name, 0.5, v)};
+  return {curve_of(0.5, bsdf.where(), bsdf.importer())};
 }
 
 bool is_wrapper(const std::string& type) {
@@ -336,7 +324,7 @@ spec::Material Materials::converted(const Object& bsdf, const Element* interior,
   if (is_wrapper(type)) {
     const Element* inner = inner_bsdf(bsdf);
     if (inner == nullptr) {
-      import_.importer.diagnostics.error(bsdf.where(), fmt::format("\"{}\" needs a nested material", type));
+      bsdf.fail(fmt::format("\"{}\" needs a nested material", type));
       return {spec::Diffuse{curve_of(0.5, bsdf.where(), import_.importer)}, {}, {}};
     }
     const Object core(*inner, import_);
@@ -347,14 +335,13 @@ spec::Material Materials::converted(const Object& bsdf, const Element* interior,
     spec::Material material = converted(core, interior, v);
     core.note_unused();
     if (type == "mask") {
-      import_.importer.note(bsdf.where(), "transparency masks are not supported: opacity is dropped");
+      bsdf.note("transparency masks are not supported: opacity is dropped");
       bsdf.ignore({"opacity"});
     } else if (type != "twosided") {
-      if (bsdf.all("texture").empty())
-        import_.importer.diagnostics.error(bsdf.where(), fmt::format("\"{}\" needs a nested texture", type));
+      if (bsdf.all("texture").empty()) bsdf.fail(fmt::format("\"{}\" needs a nested texture", type));
       for (const Element* texture : bsdf.all("texture")) {
         const Object relief(*texture, import_);
-        const auto file = image(relief, v, import_);
+        const auto file = image(relief, v);
         if (file && holds_codes(file->image.value) && !relief.boolean("raw", false))
           import_.importer.note(relief.where(), kLinearRelief);
         if (file && type == "normalmap") material.relief = spec::NormalMap{*file};
@@ -366,51 +353,47 @@ spec::Material Materials::converted(const Object& bsdf, const Element* interior,
   if (type == "blendbsdf") return mixture(bsdf, v);
   spec::Material material;
   if (type == "diffuse") {
-    material.model = spec::Diffuse{reflectance(bsdf, "reflectance", 0.5, v, import_)};
+    material.model = spec::Diffuse{reflectance(bsdf, "reflectance", 0.5, v)};
   } else if (type == "conductor" || type == "roughconductor") {
-    material.model = conductor(bsdf, import_);
+    material.model = conductor(bsdf);
   } else if (type == "dielectric" || type == "roughdielectric") {
-    material.model = dielectric(bsdf, interior, import_);
+    material.model = dielectric(bsdf, interior);
   } else if (type == "thindielectric") {
-    note_reflectance_factors(bsdf, import_);
+    note_reflectance_factors(bsdf);
     spec::ThinGlass pane;
-    pane.ior.ior = surface_index(bsdf, kGlass, import_).ior;
+    pane.ior.ior = surface_index(bsdf, kGlass).ior;
     material.model = pane;
   } else if (type == "plastic" || type == "roughplastic") {
-    material.model = plastic(bsdf, v, import_);
+    material.model = plastic(bsdf, v);
   } else if (type == "principled") {
-    material.model = principled(bsdf, v, import_);
+    material.model = principled(bsdf, v);
   } else if (type == "null" && interior != nullptr) {
-    material.model = medium_of(Object(*interior, import_), import_);
+    material.model = medium_of(Object(*interior, import_));
   } else {
-    if (std::ranges::find(kMaterialTypes, type) == kMaterialTypes.end())
-      import_.importer.diagnostics.error(bsdf.where(), unknown_name("bsdf", type, kMaterialTypes));
-    else
-      import_.importer.note(
-          bsdf.where(), fmt::format("a material \"{}\" is not supported: replaced by a diffuse one", type));
-    material.model = replacement(bsdf, v, import_);
+    if (import_.importer.is_known("bsdf", type, kMaterialTypes, bsdf.where()))
+      bsdf.note(fmt::format("a material \"{}\" is not supported: replaced by a diffuse one", type));
+    material.model = replacement(bsdf, v);
   }
   return material;
 }
 
 spec::Material Materials::mixture(const Object& blend, VDirection v) {
   const std::vector<const Element*> parts = blend.all("bsdf");
-  const double second = number(blend, "weight", 0.5, import_);
+  const double second = number(blend, "weight", 0.5);
   spec::Mixture mixture;
   mixture.where = blend.where();
   for (std::size_t i = 0; i < parts.size() && i < 2; ++i) {
     spec::MixturePart part;
     const std::string& type = (*parts[i])["type"];
     if (type == "blendbsdf" || type.ends_with("dielectric") || type == "null") {
-      import_.importer.diagnostics.error(parts[i]->where,
-                                         fmt::format("a mixture with \"{}\" is not supported", type));
+      import_.importer.fail(parts[i]->where, fmt::format("a mixture with \"{}\" is not supported", type));
       continue;
     }
     part.material = {{name_of(*parts[i], nullptr, v).value_or("")}, parts[i]->where};
     part.weight = curve_of(i == 0 ? 1 - second : second, blend.where(), import_.importer);
     mixture.value.push_back(std::move(part));
   }
-  if (parts.size() != 2) import_.importer.diagnostics.error(blend.where(), "a blend needs two materials");
+  if (parts.size() != 2) blend.fail("a blend needs two materials");
   return {std::move(mixture), {}, {}};
 }
 

@@ -9,15 +9,11 @@
 
 namespace abbe::importers::mitsuba {
 
-// Errors go to `state.importer.diagnostics`; approximations and losses go to `SceneImporter::note`. Functions
-// throw Error{resource} if the memory limit of `state.importer.inputs` is exceeded.
-
-/// Adds the interior refractive indices of all dielectrics inside an element to `state.interior_indices`.
-/// Invalid ones are skipped without an error.
+/// Adds the valid interior indices of all dielectrics inside an element to `state.interior_indices`.
 void collect_dielectric_indices(const Element& element, ImportState& state);
 
-/// Converts the materials of shapes, each once per interior medium and v direction, and adds them to the
-/// scene. The state must outlive it.
+/// Converts the materials of shapes, each once per interior medium and v direction. The state must outlive
+/// it.
 class Materials {
  public:
   explicit Materials(const ImportState& state) : import_(state) {}

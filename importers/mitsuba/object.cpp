@@ -127,14 +127,11 @@ class XmlReader {
         importer_.refuse(where, fmt::format("no <default> gives a value to \"{}\"", text.substr(dollar)));
         return std::nullopt;
       }
-      if (value.size() + entry->second.size() > kMaxValueBytes) {
-        importer_.diagnostics.error(
-            where,
-            fmt::format("a value is longer than {} after replacing \"${}\" and others",
-                        bytes_text(kMaxValueBytes), entry->first),
-            ErrorCode::resource);
-        return std::nullopt;
-      }
+      if (value.size() + entry->second.size() > kMaxValueBytes)
+        return importer_.fail(where,
+                              fmt::format("a value is longer than {} after replacing \"${}\" and others",
+                                          bytes_text(kMaxValueBytes), entry->first),
+                              ErrorCode::resource);
       value += entry->second;
       from = dollar + 1 + entry->first.size();
     }
@@ -156,9 +153,8 @@ double number_attribute(const Element& element, std::string_view name, double fa
   const std::string& text = element[name];
   const auto number = parse_number(split(text, '\n').front());
   if (!number)
-    state.importer.diagnostics.error(
-        element.where,
-        fmt::format("expected a number as \"{}\" of <{}> (got \"{}\")", name, element.tag, text));
+    state.importer.fail(element.where, fmt::format("expected a number as \"{}\" of <{}> (got \"{}\")", name,
+                                                   element.tag, text));
   return number.value_or(fallback);
 }
 
@@ -167,22 +163,16 @@ std::optional<M44d> look_at(const Element& element, const ImportState& state) {
   const auto three = [&](std::string_view name, const V3d& fallback) {
     const auto numbers = numbers_of(element[name]);
     if (element.has(name) && (!numbers || numbers->size() != 3))
-      state.importer.diagnostics.error(element.where,
-                                       fmt::format("expected three numbers as \"{}\" of <lookat> (got "
-                                                   "\"{}\")",
-                                                   name, element[name]));
+      state.importer.fail(element.where, fmt::format("expected three numbers as \"{}\" of <lookat> (got "
+                                                     "\"{}\")",
+                                                     name, element[name]));
     return numbers && numbers->size() == 3 ? V3d((*numbers)[0], (*numbers)[1], (*numbers)[2]) : fallback;
   };
   const V3d from = three("origin", {0, 0, 0});
-  const V3d z = (three("target", {0, 0, 1}) - from).normalized();
-  V3d x = three("up", {0, 1, 0}).cross(z);
-  if (z.length2() == 0 || x.length2() < 1e-24) {
-    state.importer.diagnostics.error(element.where, "the view direction is zero or parallel to up");
-    return std::nullopt;
-  }
-  x.normalize();
-  const V3d y = z.cross(x);
-  return M44d(x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, from.x, from.y, from.z, 1);
+  const V3d target = three("target", {0, 0, 1});
+  const auto matrix = looking_at(from, target, three("up", {0, 1, 0}));
+  if (!matrix) state.importer.fail(element.where, "the view direction is zero or parallel to up");
+  return matrix;
 }
 
 std::optional<M44d> matrix(const Element& element, const ImportState& state) {
@@ -192,11 +182,9 @@ std::optional<M44d> matrix(const Element& element, const ImportState& state) {
     return from_rows({n[0], n[1], 0, n[2], n[3], n[4], 0, n[5], 0, 0, 1, 0, 0, 0, 0, 1});
   }
   if (numbers && numbers->size() == 16) return from_rows(*numbers);
-  state.importer.diagnostics.error(element.where, "a matrix takes 9 or 16 numbers");
-  return std::nullopt;
+  return state.importer.fail(element.where, "a matrix takes 9 or 16 numbers");
 }
 
-// The matrix of one step of a transform.
 std::optional<M44d> transform_step(const Element& step, const ImportState& state) {
   if (step.tag == "translate") return translation(vector_of(step, {0, 0, 0}, state));
   if (step.tag == "lookat" || step.tag == "look_at") return look_at(step, state);
@@ -204,19 +192,16 @@ std::optional<M44d> transform_step(const Element& step, const ImportState& state
   if (step.tag == "scale") {
     const V3d by = vector_of(step, {1, 1, 1}, state);
     if (by.x * by.y * by.z != 0) return scaling(by);
-    state.importer.diagnostics.error(step.where, "a scale factor must not be 0");
-    return std::nullopt;
+    return state.importer.fail(step.where, "a scale factor must not be 0");
   }
   if (step.tag == "rotate") {
     const V3d axis = vector_of(step, {0, 0, 0}, state);
     if (axis.length2() > 0) return rotation(axis, number_attribute(step, "angle", 0, state));
-    state.importer.diagnostics.error(step.where, "the axis of a rotation must not be 0");
-    return std::nullopt;
+    return state.importer.fail(step.where, "the axis of a rotation must not be 0");
   }
-  state.importer.diagnostics.error(
+  return state.importer.fail(
       step.where, unknown_name("step of a transform", step.tag,
                                std::vector<std::string>{"lookat", "matrix", "rotate", "scale", "translate"}));
-  return std::nullopt;
 }
 
 }  // namespace
@@ -262,8 +247,8 @@ V3d vector_of(const Element& element, const V3d& fallback, const ImportState& st
   const auto numbers = numbers_of(value);
   if (numbers && numbers->size() == 1) return V3d(numbers->front());
   if (numbers && numbers->size() == 3) return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
-  state.importer.diagnostics.error(
-      element.where, fmt::format("expected one number or three of <{}> (got \"{}\")", element.tag, value));
+  state.importer.fail(element.where,
+                      fmt::format("expected one number or three of <{}> (got \"{}\")", element.tag, value));
   return fallback;
 }
 
@@ -274,7 +259,7 @@ const Element* resolve(const Element& element, const ImportState& state) {
   std::vector<std::string> names;
   for (const auto& [id, target] : state.ids)
     if (target->last_index < element.first_index) names.push_back(id);
-  state.importer.diagnostics.error(element.where, unknown_name("reference", element["id"], names));
+  state.importer.fail(element.where, unknown_name("reference", element["id"], names));
   return nullptr;
 }
 
@@ -284,9 +269,8 @@ const Element* Object::find(std::string_view name, std::initializer_list<std::st
     child.used = true;
     const Element* found = resolve(child, *import_);
     if (found == nullptr || std::ranges::find(tags, found->tag) != tags.end()) return found;
-    import_->importer.diagnostics.error(
-        child.where, fmt::format("\"{}\" has a wrong type (got <{}>, allowed {})", name, found->tag,
-                                 fmt::join(tags, ", ")));
+    import_->importer.fail(child.where, fmt::format("\"{}\" has a wrong type (got <{}>, allowed {})", name,
+                                                    found->tag, fmt::join(tags, ", ")));
     return nullptr;
   }
   return nullptr;
@@ -312,8 +296,7 @@ bool Object::boolean(std::string_view name, bool fallback) const {
   if (found == nullptr) return fallback;
   const std::string& value = (*found)["value"];
   if (value == "true" || value == "false") return value == "true";
-  import_->importer.diagnostics.error(found->where,
-                                      fmt::format("expected true or false (got \"{}\")", value));
+  import_->importer.fail(found->where, fmt::format("expected true or false (got \"{}\")", value));
   return fallback;
 }
 
@@ -334,7 +317,7 @@ M44d Object::transform(std::string_view name) const {
   for (const Element& step : found->children)
     if (const auto by = transform_step(step, *import_)) all = all * *by;
   if (all.determinant() != 0) return all;
-  import_->importer.diagnostics.error(found->where, "a transform is singular");
+  import_->importer.fail(found->where, "a transform is singular");
   return M44d();
 }
 

@@ -28,9 +28,8 @@ struct Element {
   std::size_t last_index = 0;
   mutable bool used = false;  ///< True once the importer has used it; it notes the others as dropped.
 
-  /// Value of the attribute called `name`; empty if absent.
+  /// Value of an attribute; empty if absent.
   [[nodiscard]] const std::string& operator[](std::string_view name) const;
-  /// True if there is an attribute called `name`.
   [[nodiscard]] bool has(std::string_view name) const;
 };
 
@@ -39,13 +38,7 @@ struct Element {
 /// - missing or unreadable files, malformed XML and a root other than <scene>;
 /// - elements or files nested deeper than 64 levels, and more than 10000 included files;
 /// - a `$name` without a <default>, and a value longer than 1 MiB after the replacement.
-/// Returns nothing after an error. Throws Error{resource} if the memory limit of `importer.inputs` is
-/// exceeded.
 [[nodiscard]] std::optional<Element> read_xml(const std::filesystem::path& file, SceneImporter& importer);
-
-// Errors go to `ImportState::importer.diagnostics`; approximations and losses go to `SceneImporter::note`.
-// Functions that note throw Error{resource} if the memory limit of `ImportState::importer.inputs` is
-// exceeded.
 
 /// State of an import that all elements share.
 struct ImportState {
@@ -57,11 +50,11 @@ struct ImportState {
 };
 
 /// The element itself or, if it is a <ref>, the element that it refers to. Reports an unknown id, and a
-/// target that does not end before the reference, and returns nullptr. Marks neither as used.
+/// target that does not end before the reference, and returns nullptr.
 [[nodiscard]] const Element* resolve(const Element& element, const ImportState& state);
 
-/// An element with its properties, which are its named children. A property that is read is marked as used.
-/// The element and the state must outlive it.
+/// An element with its properties, which are its named children. Reading a property marks it as used. The
+/// element and the state must outlive it.
 class Object {
  public:
   Object(const Element& element, const ImportState& state) : element_(&element), import_(&state) {}
@@ -70,6 +63,15 @@ class Object {
   [[nodiscard]] const std::string& type() const { return (*element_)["type"]; }
   [[nodiscard]] const SourcePosition& where() const { return element_->where; }
   [[nodiscard]] const Element& element() const { return *element_; }
+  [[nodiscard]] const ImportState& state() const { return *import_; }
+  [[nodiscard]] SceneImporter& importer() const { return import_->importer; }
+
+  /// Notes an approximated or dropped property of the object.
+  void note(const std::string& text) const { importer().note(where(), text); }
+  /// Reports an error at the object; the result is nothing.
+  std::nullopt_t fail(std::string what, ErrorCode code = ErrorCode::scene) const {
+    return importer().fail(where(), std::move(what), code);
+  }
 
   /// The first property called `name`, with references resolved; nullptr, without an error, if there is none.
   /// Its tag must be one of `tags`. Reports another tag and an unresolved reference, and returns nullptr.

@@ -24,6 +24,7 @@ namespace {
 
 using Imath::M44d;
 using Imath::V3d;
+using spec::Quantity;
 using Surface = decltype(ImportedShape::surface);
 
 const std::vector<std::string> kShapeTypes{"bsplinecurve", "cube",       "cylinder", "disk",      "instance",
@@ -66,7 +67,6 @@ spec::InlineMesh cube() {
   return mesh;
 }
 
-// True if triangles that share a vertex are in different planes.
 bool is_bent(const Mesh& mesh) {
   constexpr double kFlat = 1 - 1e-6;
   std::vector<std::optional<V3d>> normals(mesh.vertices.size());
@@ -83,35 +83,32 @@ bool is_bent(const Mesh& mesh) {
 
 // Notes differences of normals: Mitsuba computes vertex normals for meshes without them, unless
 // "face_normals" is true.
-void note_normals(const Object& shape, const MeshFile& file, const ImportState& state) {
+void note_normals(const Object& shape, const MeshFile& file) {
   const Mesh& mesh = file.submeshes.front().mesh;
   const bool flat = shape.boolean("face_normals", false);
   if (flat && !mesh.normals.empty())
-    state.importer.note(shape.where(),
-                        "\"face_normals\" is not supported: vertex normals of the mesh file are used");
+    shape.note("\"face_normals\" is not supported: vertex normals of the mesh file are used");
   if (!flat && mesh.normals.empty() && is_bent(mesh))
-    state.importer.note(
-        shape.where(),
-        "vertex normals are not computed for a mesh file without them: its triangles are visible");
+    shape.note("vertex normals are not computed for a mesh file without them: its triangles are visible");
 }
 
-std::optional<LocalSurface> mesh_file(const Object& shape, const ImportState& state) {
-  const auto path = state.folder / shape.text("filename", "");
-  if (!state.importer.check_file(path, shape.where())) return std::nullopt;
-  auto file = load_mesh_file(path, FileMaterials::ignored, shape.where(), state.importer.diagnostics,
-                             FileCoordinates::ignored, state.importer.inputs);
+std::optional<LocalSurface> mesh_file(const Object& shape) {
+  const auto path = shape.state().folder / shape.text("filename", "");
+  if (!shape.importer().check_file(path, shape.where())) return std::nullopt;
+  auto file = load_mesh_file(path, FileMaterials::ignored, shape.where(), shape.importer().diagnostics,
+                             FileCoordinates::ignored, shape.importer().inputs);
   if (!file) return std::nullopt;
   const bool obj = shape.type() == "obj";
   const bool flips_v = shape.boolean("flip_tex_coords", obj);
   shape.ignore({"max_smooth_angle"});
   LocalSurface local{MeshFileSurface{path}, {}, flips_v ? VDirection::up : VDirection::down};
   if (file->submeshes.empty()) return local;
-  note_normals(shape, *file, state);
+  note_normals(shape, *file);
   local.mesh = std::move(file->submeshes.front().mesh);
   return local;
 }
 
-std::optional<LocalSurface> surface_of(const Object& shape, const ImportState& state) {
+std::optional<LocalSurface> surface_of(const Object& shape) {
   const std::string& type = shape.type();
   if (type == "rectangle") return LocalSurface{spec::Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, shape.where()}};
   if (type == "cube") return LocalSurface{cube()};
@@ -123,91 +120,81 @@ std::optional<LocalSurface> surface_of(const Object& shape, const ImportState& s
   if (type == "cylinder")
     return LocalSurface{spec::Cylinder{shape.point("p0", {0, 0, 0}), shape.point("p1", {0, 0, 1}),
                                        shape.number("radius", 1), false, shape.where()}};
-  if (type == "obj" || type == "ply") return mesh_file(shape, state);
-  if (std::ranges::find(kShapeTypes, type) == kShapeTypes.end())
-    state.importer.diagnostics.error(shape.where(), unknown_name("shape", type, kShapeTypes));
-  else if (type == "serialized")
-    state.importer.diagnostics.error(
-        shape.where(), "serialized meshes of Mitsuba are not supported: write PLY or OBJ", ErrorCode::input);
-  else
-    state.importer.note(shape.where(), fmt::format("a shape \"{}\" is not supported: dropped", type));
+  if (type == "obj" || type == "ply") return mesh_file(shape);
+  if (type == "serialized")
+    return shape.fail("serialized meshes of Mitsuba are not supported: write PLY or OBJ", ErrorCode::input);
+  if (shape.importer().is_known("shape", type, kShapeTypes, shape.where()))
+    shape.note(fmt::format("a shape \"{}\" is not supported: dropped", type));
   return std::nullopt;
 }
 
-// The interior medium; nullptr if there is none.
-const Element* interior_medium(const Object& shape, const ImportState& state) {
-  if (shape.has("exterior"))
-    state.importer.note(shape.where(), "an exterior medium of a shape is not supported: dropped");
+const Element* interior_medium(const Object& shape) {
+  if (shape.has("exterior")) shape.note("an exterior medium of a shape is not supported: dropped");
   shape.ignore({"exterior"});
   return shape.find("interior", {"medium"});
 }
 
-std::optional<std::string> material_of(const Object& shape, VDirection v, Materials& materials,
-                                       const ImportState& state) {
-  const Element* interior = interior_medium(shape, state);
+std::optional<std::string> material_of(const Object& shape, VDirection v, Materials& materials) {
+  const Element* interior = interior_medium(shape);
   const auto bsdfs = shape.all("bsdf");
   static const Element kDefault{"bsdf", {{"type", "diffuse"}}};
   return materials.name_of(bsdfs.empty() ? kDefault : *bsdfs.front(), interior, v);
 }
 
-// Adds a shape group as an object and returns its name.
-std::string add_group(const Object& group, Materials& materials, const ImportState& state) {
+std::string add_group(const Object& group, Materials& materials) {
   std::string name = group.element()["id"];
-  if (name.empty()) name = fmt::format("shape group {}", state.importer.scene.objects.size() + 1);
+  if (name.empty()) name = fmt::format("shape group {}", group.importer().scene.objects.size() + 1);
   spec::Object object;
   for (const Element* member : group.all("shape"))
-    add_shape(Object(*member, state), ShapeOwner::object, object.shapes, materials, state);
+    add_shape(Object(*member, group.state()), ShapeOwner::object, object.shapes, materials);
   if (object.shapes.empty())
-    state.importer.diagnostics.error(group.where(), "the shape group is empty");
+    group.fail("the shape group is empty");
   else
-    state.importer.scene.objects.push_back({name, std::move(object), group.where()});
+    group.importer().scene.objects.push_back({name, std::move(object), group.where()});
   return name;
 }
 
 // Adds an instance of a shape group, which is a child of the instance or referred to.
-void add_instance(const Object& shape, Materials& materials, const ImportState& state) {
+void add_instance(const Object& shape, Materials& materials) {
   const auto groups = shape.all("shape");
-  const M44d m = shape.transform("to_world") * state.world_mirror;
+  const M44d m = shape.transform("to_world") * shape.state().world_mirror;
   if (groups.size() != 1 || (*groups.front())["type"] != "shapegroup")
-    return state.importer.diagnostics.error(shape.where(), "an instance needs one shape group");
+    return (void)shape.fail("an instance needs one shape group");
   const Element& group = *groups.front();
   const bool is_within = std::ranges::any_of(shape.element().children,
                                              [&group](const Element& child) { return &child == &group; });
-  const std::string name = is_within ? add_group(Object(group, state), materials, state) : group["id"];
-  append_instance(name, m, shape.where(), state.importer);
+  const std::string name = is_within ? add_group(Object(group, shape.state()), materials) : group["id"];
+  append_instance(name, m, shape.where(), shape.importer());
 }
 
 // Sets the front side of a mesh file as in Mitsuba: the side of the vertex normals or, without any, the side
 // given by the triangles' order in world space, also after a reflection.
-void orient_mesh(const Object& shape, const Mesh& mesh, ImportedShape& imported, const ImportState& state) {
+void orient_mesh(const Object& shape, const Mesh& mesh, ImportedShape& imported) {
   if (!mesh.normals.empty() && !shape.boolean("face_normals", false))
-    orient_by_normals(mesh, imported, state.importer);
+    orient_by_normals(mesh, imported, shape.importer());
   else if (mirrors(shape.transform("to_world")))
     imported.reversed = !imported.reversed;
 }
 
-void add_emission(const Object& shape, ShapeOwner owner, ImportedShape& imported, const ImportState& state) {
+void add_emission(const Object& shape, ShapeOwner owner, ImportedShape& imported) {
   const auto emitters = shape.all("emitter");
   if (emitters.empty()) return;
-  const Object light(*emitters.front(), state);
+  const Object light(*emitters.front(), shape.state());
   if (owner == ShapeOwner::object) {
-    state.importer.note(shape.where(), "emission inside objects is not supported: dropped");
+    shape.note("emission inside objects is not supported: dropped");
     return;
   }
-  imported.emission = area_emission(light, state);
+  light.importer().is_known("area light", light.type(), {"area"}, light.where());
+  imported.emission = emission_of<Quantity::luminance>(light_spectrum(light, "radiance"));
   light.ignore({"sampling_weight"});
   light.note_unused();
 }
 
-using Imath::M44d;
-using Imath::V3d;
-using spec::Quantity;
-
 const std::vector<std::string> kLightTypes{"area",  "constant",  "directional", "directionalarea", "envmap",
                                            "point", "projector", "spot",        "sunsky"};
 
-M44d light_to_world(const Object& light, const ImportState& state) {
-  return light.transform("to_world") * state.world_mirror;
+M44d light_to_world(const Object& light) {
+  return light.transform("to_world") * light.state().world_mirror;
 }
 
 V3d direction(const V3d& local, const M44d& m) {
@@ -216,85 +203,71 @@ V3d direction(const V3d& local, const M44d& m) {
   return to;
 }
 
-void add_point(const Object& light, const ImportState& state) {
-  const V3d at = light.point("position", {0, 0, 0}) * light_to_world(light, state);
-  const auto emission = emission_of<spec::PointEmission, Quantity::luminous_intensity>(
-      light_spectrum(light, "intensity", state));
-  append_light(spec::PointLightSource{{at}, emission}, light.where(), state.importer);
+void add_point(const Object& light) {
+  const V3d at = light.point("position", {0, 0, 0}) * light_to_world(light);
+  append_light<spec::PointLightSource, Quantity::luminous_intensity>({at}, light_spectrum(light, "intensity"),
+                                                                     light.where(), light.importer());
 }
 
-void add_spot(const Object& light, const ImportState& state) {
-  const M44d m = light_to_world(light, state);
+void add_spot(const Object& light) {
+  const M44d m = light_to_world(light);
   const double cutoff = light.number("cutoff_angle", 20);
   const double beam_width = light.number("beam_width", 0.75 * cutoff);
-  spec::SpotLightSource spot;
-  spot.source = {V3d(0, 0, 0) * m, direction({0, 0, 1}, m),
-                 hard_cone(beam_width, cutoff, Falloff::linear_angle, light.where(), state.importer)};
-  spot.emission = emission_of<spec::PointEmission, Quantity::luminous_intensity>(
-      light_spectrum(light, "intensity", state));
-  append_light(spot, light.where(), state.importer);
+  const double half_angle =
+      hard_cone(beam_width, cutoff, Falloff::linear_angle, light.where(), light.importer());
+  append_light<spec::SpotLightSource, Quantity::luminous_intensity>(
+      {V3d(0, 0, 0) * m, direction({0, 0, 1}, m), half_angle}, light_spectrum(light, "intensity"),
+      light.where(), light.importer());
 }
 
-void add_directional(const Object& light, const ImportState& state) {
-  const M44d m = light_to_world(light, state);
+void add_directional(const Object& light) {
+  const M44d m = light_to_world(light);
   const V3d along = light.has("direction")
-                        ? direction(light.point("direction", {0, 0, 1}), state.world_mirror)
+                        ? direction(light.point("direction", {0, 0, 1}), light.state().world_mirror)
                         : direction({0, 0, 1}, m);
-  spec::DirectionalLightSource directional;
-  directional.source.towards = -along;
-  directional.emission = emission_of<spec::DirectionalLightEmission, Quantity::illuminance>(
-      light_spectrum(light, "irradiance", state));
-  append_light(directional, light.where(), state.importer);
+  append_light<spec::DirectionalLightSource, Quantity::illuminance>(
+      {-along, {}}, light_spectrum(light, "irradiance"), light.where(), light.importer());
 }
 
-void add_environment(const Object& light, const ImportState& state) {
-  spec::EnvironmentLightSource environment;
-  environment.source.where = light.where();
-  environment.emission = emission_of<spec::EnvironmentLightEmission, Quantity::luminance>(
-      light_spectrum(light, "radiance", state));
-  append_light(environment, light.where(), state.importer);
+void add_environment(const Object& light) {
+  append_light<spec::EnvironmentLightSource, Quantity::luminance>(
+      {{}, light.where()}, light_spectrum(light, "radiance"), light.where(), light.importer());
 }
 
 // Adds an environment map, whose center is along +z with +y up before its transform.
-void add_environment_image(const Object& light, const ImportState& state) {
-  const auto path = state.folder / light.text("filename", "");
-  if (!state.importer.check_file(path, light.where())) return;
-  const M44d m = light_to_world(light, state);
+void add_environment_image(const Object& light) {
+  const auto path = light.state().folder / light.text("filename", "");
+  if (!light.importer().check_file(path, light.where())) return;
+  const M44d m = light_to_world(light);
   const V3d up = direction({0, 1, 0}, m).normalized();
   const V3d forward = direction({0, 0, 1}, m).normalized();
-  if (mirrors(m))
-    state.importer.note(light.where(), "mirroring of an environment image is not supported: dropped");
+  if (mirrors(m)) light.note("mirroring of an environment image is not supported: dropped");
   const V3d reference = environment_frame(up, 0).forward;
   const double turn =
       std::atan2(reference.cross(forward).dot(up), reference.dot(forward)) * 180 / std::numbers::pi;
-  spec::EnvironmentImage image;
-  image.file = {{state.importer.name_of(path)}, light.where()};
-  image.up = up;
-  image.rotate_deg = turn;
-  spec::EnvironmentLightSource environment;
-  environment.source = {image, light.where()};
+  const spec::EnvironmentImage image{{{light.importer().name_of(path)}, light.where()}, up, turn};
   const ImportedLightSpectrum white = light_spectrum_of(
-      LinearRgb{1, 1, 1}, light.number("scale", 1) * y_integral(), light.where(), state.importer);
-  environment.emission = emission_of<spec::EnvironmentLightEmission, Quantity::luminance>(white);
-  append_light(environment, light.where(), state.importer);
+      LinearRgb{1, 1, 1}, light.number("scale", 1) * y_integral(), light.where(), light.importer());
+  append_light<spec::EnvironmentLightSource, Quantity::luminance>({image, light.where()}, white,
+                                                                  light.where(), light.importer());
 }
 
 }  // namespace
 
-void add_shape(const Object& shape, ShapeOwner owner, std::vector<spec::Shape>& shapes, Materials& materials,
-               const ImportState& state) {
-  if (shape.type() == "shapegroup") return (void)add_group(shape, materials, state);
-  if (shape.type() == "instance") return add_instance(shape, materials, state);
-  auto local = surface_of(shape, state);
+void add_shape(const Object& shape, ShapeOwner owner, std::vector<spec::Shape>& shapes,
+               Materials& materials) {
+  if (shape.type() == "shapegroup") return (void)add_group(shape, materials);
+  if (shape.type() == "instance") return add_instance(shape, materials);
+  auto local = surface_of(shape);
   if (!local) return;
   ImportedShape imported;
-  add_emission(shape, owner, imported, state);
-  auto material = material_of(shape, local->v, materials, state);
+  add_emission(shape, owner, imported);
+  auto material = material_of(shape, local->v, materials);
   imported.reversed = shape.boolean("flip_normals", false);
   imported.u_is_radial = true;
-  if (!local->mesh.triangles.empty()) orient_mesh(shape, local->mesh, imported, state);
+  if (!local->mesh.triangles.empty()) orient_mesh(shape, local->mesh, imported);
   imported.to_world = local->matrix * shape.transform("to_world") *
-                      (owner == ShapeOwner::scene ? state.world_mirror : M44d());
+                      (owner == ShapeOwner::scene ? shape.state().world_mirror : M44d());
   if (!shape.element()["id"].empty()) imported.name = shape.element()["id"];
   shape.ignore({"silhouette_sampling_weight"});
   shape.note_unused();
@@ -303,35 +276,26 @@ void add_shape(const Object& shape, ShapeOwner owner, std::vector<spec::Shape>& 
   imported.material = material.value_or("");
   imported.where = shape.where();
   if (!material)
-    imported.material = state.importer.add_material(
-        "black", {spec::Diffuse{curve_of(0.0, imported.where, state.importer)}, {}, {}});
-  append_shape(std::move(imported), owner, shapes, state.importer);
+    imported.material = shape.importer().add_material(
+        "black", {spec::Diffuse{curve_of(0.0, imported.where, shape.importer())}, {}, {}});
+  append_shape(std::move(imported), owner, shapes, shape.importer());
 }
 
-spec::Emission area_emission(const Object& light, const ImportState& state) {
-  if (light.type() != "area")
-    state.importer.diagnostics.error(
-        light.where(), unknown_name("area light", light.type(), std::vector<std::string>{"area"}));
-  return emission_of<spec::AreaLightEmission, Quantity::luminance>(light_spectrum(light, "radiance", state));
-}
-
-void add_light(const Object& light, const ImportState& state) {
+void add_light(const Object& light) {
   light.ignore({"sampling_weight"});
   const std::string& type = light.type();
   if (type == "point") {
-    add_point(light, state);
+    add_point(light);
   } else if (type == "spot") {
-    add_spot(light, state);
+    add_spot(light);
   } else if (type == "directional") {
-    add_directional(light, state);
+    add_directional(light);
   } else if (type == "constant") {
-    add_environment(light, state);
+    add_environment(light);
   } else if (type == "envmap") {
-    add_environment_image(light, state);
-  } else if (std::ranges::find(kLightTypes, type) == kLightTypes.end()) {
-    state.importer.diagnostics.error(light.where(), unknown_name("emitter", type, kLightTypes));
-  } else {
-    state.importer.note(light.where(), fmt::format("an emitter \"{}\" is not supported: dropped", type));
+    add_environment_image(light);
+  } else if (light.importer().is_known("emitter", type, kLightTypes, light.where())) {
+    light.note(fmt::format("an emitter \"{}\" is not supported: dropped", type));
     return;
   }
   light.note_unused();

@@ -9,27 +9,17 @@
 
 namespace abbe::importers::mitsuba {
 
-// Errors go to `state.importer.diagnostics`; approximations and losses go to `SceneImporter::note`. Functions
-// throw Error{resource} if the memory limit of `state.importer.inputs` is exceeded.
-
 /// Converts a <shape>:
 /// - A shape group becomes an object of `state.importer.scene`.
 /// - An instance is added to the shapes of that scene.
 /// - Any other shape is added to `shapes`, or becomes an object and an instance; see `append_shape`.
 /// - A shape with neither a surface nor a medium nor an emitter is left out.
 /// `owner` is the kind of the owner of `shapes`. Reports unknown types, missing files and an instance without
-/// one shape group. A supported type without a counterpart and properties that Abbe cannot represent are
-/// noted and dropped.
-void add_shape(const Object& shape, ShapeOwner owner, std::vector<spec::Shape>& shapes, Materials& materials,
-               const ImportState& state);
+/// one shape group.
+void add_shape(const Object& shape, ShapeOwner owner, std::vector<spec::Shape>& shapes, Materials& materials);
 
-/// The emission of a surface with an area light, from its property "radiance". Reports a `light` of any other
-/// type than "area".
-[[nodiscard]] spec::Emission area_emission(const Object& light, const ImportState& state);
-
-/// Adds an <emitter> that is not an area light to `state.importer.scene.lights`. A type of Mitsuba without a
-/// counterpart in Abbe is noted and dropped. Reports an unknown type, malformed properties and missing files;
-/// notes properties that Abbe cannot represent.
-void add_light(const Object& light, const ImportState& state);
+/// Adds an <emitter> that is not an area light. A type of Mitsuba without a counterpart in Abbe is noted and
+/// dropped. Reports an unknown type, malformed properties and missing files.
+void add_light(const Object& light);
 
 }  // namespace abbe::importers::mitsuba

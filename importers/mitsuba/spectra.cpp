@@ -17,7 +17,6 @@
 namespace abbe::importers::mitsuba {
 namespace {
 
-// The property called `name`, if it can be a spectrum.
 const Element* find_spectrum(const Object& object, std::string_view name) {
   return object.find(name, {"rgb", "spectrum", "float", "integer", "texture"});
 }
@@ -39,9 +38,8 @@ std::optional<Spectrum> rgb_of(const Element& element, const ImportState& state)
   const auto numbers = numbers_of(element["value"]);
   if (numbers && numbers->size() == 1) return LinearRgb{numbers->front(), numbers->front(), numbers->front()};
   if (numbers && numbers->size() == 3) return LinearRgb{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
-  state.importer.diagnostics.error(
+  return state.importer.fail(
       element.where, fmt::format("expected a colour of three numbers (got \"{}\")", element["value"]));
-  return std::nullopt;
 }
 
 // Parses "nm:value, nm:value".
@@ -50,21 +48,13 @@ std::optional<Spectrum> pairs_of(const Element& element, const ImportState& stat
   for (char& c : text)
     if (c == ':') c = ' ';
   const auto numbers = numbers_of(text);
-  if (!numbers || numbers->size() % 2 != 0) {
-    state.importer.diagnostics.error(
-        element.where, fmt::format("expected pairs wavelength:value (got \"{}\")", element["value"]));
-    return std::nullopt;
-  }
-  Samples samples{{}, {}, Outside::zero};
-  for (std::size_t i = 0; i < numbers->size(); i += 2) {
-    samples.nm.push_back((*numbers)[i]);
-    samples.values.push_back((*numbers)[i + 1]);
-  }
-  if (!check_samples(samples, element.where, state.importer)) return std::nullopt;
-  return samples;
+  if (!numbers || numbers->size() % 2 != 0)
+    return state.importer.fail(element.where,
+                               fmt::format("expected pairs wavelength:value (got \"{}\")", element["value"]));
+  return samples_of_pairs(*numbers, element.where, state.importer);
 }
 
-std::optional<Spectrum> samples_of_lists(const Object& object, const ImportState& state) {
+std::optional<Spectrum> samples_of_lists(const Object& object) {
   Samples samples{{}, {}, Outside::zero};
   const auto list = [&](std::string_view name) {
     return numbers_of(object.text(name, "")).value_or(std::vector<double>{});
@@ -79,115 +69,93 @@ std::optional<Spectrum> samples_of_lists(const Object& object, const ImportState
   } else {
     samples.nm = list("wavelengths");
   }
-  if (samples.nm.size() != samples.values.size()) {
-    state.importer.diagnostics.error(object.where(), "the numbers of wavelengths and values must be equal");
-    return std::nullopt;
-  }
-  if (!check_samples(samples, object.where(), state.importer)) return std::nullopt;
-  return samples;
+  if (samples.nm.size() != samples.values.size())
+    return object.fail("the numbers of wavelengths and values must be equal");
+  return checked(std::move(samples), object.where(), object.importer());
 }
 
-// The spectrum of an object with a type.
-std::optional<Spectrum> typed_spectrum(const Object& object, const ImportState& state) {
+std::optional<Spectrum> typed_spectrum(const Object& object) {
   const std::string& type = object.type();
   if (type == "uniform") return object.number("value", 1);
   if (type == "d65") return scaled(ShippedTable{"D65"}, object.number("scale", 1));
   if (type == "blackbody") return Temperature{object.number("temperature", 5000)};
-  if (type == "regular" || type == "irregular") return samples_of_lists(object, state);
-  if (type == "srgb" || type == "srgb_d65") return spectrum(object, "color", 1.0, state);
-  state.importer.diagnostics.error(
-      object.where(),
-      unknown_name("spectrum", type,
-                   std::vector<std::string>{"blackbody", "d65", "irregular", "regular", "srgb", "uniform"}));
+  if (type == "regular" || type == "irregular") return samples_of_lists(object);
+  if (type == "srgb" || type == "srgb_d65") return spectrum(object, "color", 1.0);
+  object.importer().is_known("spectrum", type,
+                             {"blackbody", "d65", "irregular", "regular", "srgb", "uniform"}, object.where());
   return std::nullopt;
 }
 
-// A constant that replaces an unsupported texture; noted.
-Spectrum constant_replacement(const Object& texture, const ImportState& state) {
-  state.importer.note(
-      texture.where(),
-      fmt::format("a texture \"{}\" is not supported: replaced by a constant", texture.type()));
-  if (texture.has("color0")) return spectrum(texture, "color0", 0.5, state);
+Spectrum constant_replacement(const Object& texture) {
+  texture.note(fmt::format("a texture \"{}\" is not supported: replaced by a constant", texture.type()));
+  if (texture.has("color0")) return spectrum(texture, "color0", 0.5);
   return 0.5;
 }
 
-TextureValue texture_of(const Element& element, VDirection v, const ImportState& state) {
-  const Object object(element, state);
-  if (object.type() == "bitmap") {
-    auto file = image(object, v, state);
-    if (!file) return Spectrum(0.5);
-    return colours_of(*std::move(file), object.boolean("raw", false), object.where(), state.importer);
-  }
-  return constant_replacement(object, state);
+TextureValue texture_of(const Object& texture, VDirection v) {
+  if (texture.type() != "bitmap") return constant_replacement(texture);
+  auto file = image(texture, v);
+  if (!file) return Spectrum(0.5);
+  return colours_of(*std::move(file), texture.boolean("raw", false), texture.where(), texture.importer());
 }
 
 }  // namespace
 
 std::optional<Spectrum> spectrum_of(const Element& element, const ImportState& state) {
   if (element.tag == "rgb") return rgb_of(element, state);
-  if (element.tag == "texture") return constant_replacement(Object(element, state), state);
+  if (element.tag == "texture") return constant_replacement(Object(element, state));
   if (!element["type"].empty()) {
     const Object object(element, state);
-    auto spectrum = typed_spectrum(object, state);
+    auto spectrum = typed_spectrum(object);
     object.note_unused();
     return spectrum;
   }
-  if (!element["filename"].empty()) {
-    auto samples = read_spectrum_file(state.folder / element["filename"], element.where, state.importer);
-    if (!samples) return std::nullopt;
-    samples->outside = Outside::zero;
-    return *samples;
-  }
+  if (!element["filename"].empty())
+    return read_spectrum_file(state.folder / element["filename"], element.where, state.importer);
   if (const auto number = parse_number(element["value"])) return *number;
   return pairs_of(element, state);
 }
 
-Spectrum spectrum(const Object& object, std::string_view name, const Spectrum& fallback,
-                  const ImportState& state) {
+Spectrum spectrum(const Object& object, std::string_view name, const Spectrum& fallback) {
   const Element* found = find_spectrum(object, name);
-  return found ? spectrum_of(*found, state).value_or(fallback) : fallback;
+  return found ? spectrum_of(*found, object.state()).value_or(fallback) : fallback;
 }
 
-TextureValue texture(const Object& object, std::string_view name, const Spectrum& fallback, VDirection v,
-                     const ImportState& state) {
+TextureValue texture(const Object& object, std::string_view name, const Spectrum& fallback, VDirection v) {
   const Element* found = object.find(name, {"rgb", "spectrum", "float", "texture"});
   if (found == nullptr) return fallback;
-  if (found->tag == "texture") return texture_of(*found, v, state);
-  return spectrum_of(*found, state).value_or(fallback);
+  if (found->tag == "texture") return texture_of(Object(*found, object.state()), v);
+  return spectrum_of(*found, object.state()).value_or(fallback);
 }
 
-spec::Reflectance reflectance(const Object& object, std::string_view name, double fallback, VDirection v,
-                              const ImportState& state) {
-  TextureValue value = texture(object, name, fallback, v, state);
+spec::Reflectance reflectance(const Object& object, std::string_view name, double fallback, VDirection v) {
+  TextureValue value = texture(object, name, fallback, v);
   if (auto* picture = std::get_if<spec::Texture>(&value)) return *picture;
-  return curve_of(std::get<Spectrum>(value), object.position_of(name), state.importer);
+  return curve_of(std::get<Spectrum>(value), object.position_of(name), object.importer());
 }
 
-double number(const Object& object, std::string_view name, double fallback, const ImportState& state) {
-  return number_of(spectrum(object, name, fallback, state)).value_or(fallback);
+double number(const Object& object, std::string_view name, double fallback) {
+  return number_of(spectrum(object, name, fallback)).value_or(fallback);
 }
 
-std::optional<spec::TextureFile> image(const Object& texture, VDirection v, const ImportState& state) {
+std::optional<spec::TextureFile> image(const Object& texture, VDirection v) {
   if (texture.type() != "bitmap") {
-    state.importer.note(texture.where(),
-                        fmt::format("a texture \"{}\" is not an image: dropped", texture.type()));
+    texture.note(fmt::format("a texture \"{}\" is not an image: dropped", texture.type()));
     return std::nullopt;
   }
-  const auto path = state.folder / texture.text("filename", "");
-  if (!state.importer.check_file(path, texture.where())) return std::nullopt;
+  const auto path = texture.state().folder / texture.text("filename", "");
+  if (!texture.importer().check_file(path, texture.where())) return std::nullopt;
   spec::TextureFile file;
-  file.image = {{state.importer.name_of(path)}, texture.where()};
+  file.image = {{texture.importer().name_of(path)}, texture.where()};
   const std::string wrap = texture.text("wrap_mode", "repeat");
-  const std::vector<std::string> wraps{"clamp", "mirror", "repeat"};
+  texture.importer().is_known("wrap mode", wrap, {"clamp", "mirror", "repeat"},
+                              texture.position_of("wrap_mode"));
   if (wrap == "clamp") file.mapping.wrap = TextureWrap::clamp;
-  if (wrap == "mirror") state.importer.note(texture.where(), kNoMirroredImages);
-  if (std::ranges::find(wraps, wrap) == wraps.end())
-    state.importer.diagnostics.error(texture.position_of("wrap_mode"),
-                                     unknown_name("wrap mode", wrap, wraps));
+  if (wrap == "mirror") texture.note(kNoMirroredImages);
   if (texture.text("filter_type", "bilinear") == "nearest") file.mapping.filter = TextureFilter::nearest;
   const Imath::M44d m = texture.transform("to_uv");
   if (m[0][1] != 0 || m[1][0] != 0)
-    state.importer.note(texture.where(), "rotation of an image on a surface is not supported: dropped");
+    texture.note("rotation of an image on a surface is not supported: dropped");
   // v points down in Mitsuba, up in Abbe: the image coordinate is 1 - (a v + b) of Mitsuba's v.
   const bool down = v == VDirection::down;
   file.mapping.scale = {m[0][0], down ? -m[1][1] : m[1][1]};
@@ -201,15 +169,15 @@ double y_integral() {
   return sum_product(color_matching(Observer::cie1931).y, Curve(1.0), SumRange{360, 830});
 }
 
-ImportedLightSpectrum light_spectrum(const Object& object, std::string_view name, const ImportState& state) {
+ImportedLightSpectrum light_spectrum(const Object& object, std::string_view name) {
   const Element* element = find_spectrum(object, name);
-  const Spectrum given = element ? spectrum_of(*element, state).value_or(1.0) : 1.0;
+  const Spectrum given = element ? spectrum_of(*element, object.state()).value_or(1.0) : 1.0;
   if (element != nullptr && (*element)["type"] == "uniform")
     return light_spectrum_of(given, number_of(given).value_or(1) * y_integral(), object.where(),
-                             state.importer);
+                             object.importer());
   if (const auto* table = std::get_if<ShippedTable>(&given))
-    return light_spectrum_of(given, table->factor * y_integral(), object.where(), state.importer);
-  return absolute_light_spectrum_of(given, 1, y_integral(), object.where(), state.importer);
+    return light_spectrum_of(given, table->factor * y_integral(), object.where(), object.importer());
+  return absolute_light_spectrum_of(given, y_integral(), object.where(), object.importer());
 }
 
 }  // namespace abbe::importers::mitsuba

@@ -37,7 +37,7 @@ spec::Medium medium_of(const std::string& name, const SourcePosition& where, Imp
   if (p.has("preset"))
     state.importer.note(directive->where, "presets of media are not supported: pbrt's defaults are used");
   p.ignore({"preset"});
-  const double scale = p.number("scale", 1, state.importer);
+  const double scale = p.number("scale", 1);
   // pbrt's defaults, per unit of length.
   const LinearRgb absorption{0.0011, 0.0024, 0.014};
   const LinearRgb scattering{2.55, 3.21, 3.77};
@@ -45,15 +45,14 @@ spec::Medium medium_of(const std::string& name, const SourcePosition& where, Imp
       curve_of(scaled(spectrum(p, "sigma_a", absorption, state), scale), directive->where, state.importer);
   medium.scattering.per_m =
       curve_of(scaled(spectrum(p, "sigma_s", scattering, state), scale), directive->where, state.importer);
-  const double g = p.number("g", 0, state.importer);
+  const double g = p.number("g", 0);
   if (g != 0) medium.scattering.phase = {{spec::HenyeyGreenstein{g}}, directive->where};
   if (p.has("Le")) state.importer.note(directive->where, "emission of media is not supported: dropped");
   p.ignore({"Le", "Lescale"});
-  p.note_unused("medium", state.importer);
+  p.note_unused("medium");
   return medium;
 }
 
-// Microfacet width alpha for a roughness parameter.
 double slope_width(double value, bool remapped) {
   return remapped && value > 0 ? std::sqrt(value) : value;
 }
@@ -62,34 +61,33 @@ double slope_width(double value, bool remapped) {
 // is false.
 std::optional<spec::Roughness> roughness(const Parameters& p, const SourcePosition& where,
                                          ImportState& state) {
-  const bool remapped = p.boolean("remaproughness", true, state.importer);
+  const bool remapped = p.boolean("remaproughness", true);
   const double both = number(p, "roughness", 0, state);
   const double u = slope_width(number(p, "uroughness", both, state), remapped);
   const double v = slope_width(number(p, "vroughness", both, state), remapped);
   return roughness_of(u, v, FacetShape::ggx, where, state.importer);
 }
 
-spec::Conductor conductor(const Directive& directive, ImportState& state) {
-  spec::Conductor metal;
+spec::Ior conductor_index(const Directive& directive, std::string_view eta, std::string_view k,
+                          ImportState& state) {
   const Parameters& p = directive.parameters;
-  if (p.has("reflectance")) {
-    metal.ior = index_of_reflectance(spectrum(p, "reflectance", 0.5, state), directive.where, state.importer);
-  } else {
-    metal.ior = metal_index(p, "eta", "k", state);
-  }
-  metal.roughness = roughness(p, directive.where, state);
-  return metal;
+  if (!p.has("reflectance")) return metal_index(p, eta, k, state);
+  return index_of_reflectance(spectrum(p, "reflectance", 0.5, state), directive.where, state.importer);
+}
+
+spec::Conductor conductor(const Directive& directive, ImportState& state) {
+  return {conductor_index(directive, "eta", "k", state),
+          {},
+          roughness(directive.parameters, directive.where, state)};
 }
 
 spec::Conductor coated_conductor(const Directive& directive, ImportState& state) {
   const Parameters& p = directive.parameters;
-  state.importer.note(directive.where, "a coated conductor is not supported: replaced by the bare metal");
+  directive.note("a coated conductor is not supported: replaced by the bare metal");
   p.ignore({"interface.roughness", "thickness", "interface.eta", "g", "albedo", "maxdepth", "nsamples"});
   spec::Conductor metal;
-  metal.ior = p.has("reflectance") ? index_of_reflectance(spectrum(p, "reflectance", 0.5, state),
-                                                          directive.where, state.importer)
-                                   : metal_index(p, "conductor.eta", "conductor.k", state);
-  const bool remapped = p.boolean("remaproughness", true, state.importer);
+  metal.ior = conductor_index(directive, "conductor.eta", "conductor.k", state);
+  const bool remapped = p.boolean("remaproughness", true);
   const double width = slope_width(number(p, "conductor.roughness", 0, state), remapped);
   metal.roughness = roughness_of(width, width, FacetShape::ggx, directive.where, state.importer);
   return metal;
@@ -97,9 +95,9 @@ spec::Conductor coated_conductor(const Directive& directive, ImportState& state)
 
 spec::CoatedDiffuse coated_diffuse(const Directive& directive, ImportState& state) {
   const Parameters& p = directive.parameters;
-  spec::CoatedDiffuse coated{glass_index(p, "eta", state), reflectance(p, "reflectance", 0.5, state)};
+  spec::CoatedDiffuse coated{glass_index(p, state), reflectance(p, "reflectance", 0.5, state)};
   if (roughness(p, directive.where, state))
-    state.importer.note(directive.where, "roughness of a clear coat is not supported: dropped");
+    directive.note("roughness of a clear coat is not supported: dropped");
   p.ignore(
       // These parameters concern pbrt's random walk; without a medium in the coat they have no other effect.
       {"thickness", "maxdepth", "nsamples"});
@@ -108,7 +106,7 @@ spec::CoatedDiffuse coated_diffuse(const Directive& directive, ImportState& stat
 
 spec::Dielectric dielectric(const Directive& directive, const std::string& interior, ImportState& state) {
   spec::Dielectric glass;
-  glass.ior.ior = glass_index(directive.parameters, "eta", state);
+  glass.ior.ior = glass_index(directive.parameters, state);
   glass.roughness = roughness(directive.parameters, directive.where, state);
   if (interior.empty()) return glass;
   const spec::Medium medium = medium_of(interior, directive.where, state);
@@ -119,27 +117,25 @@ spec::Dielectric dielectric(const Directive& directive, const std::string& inter
 
 spec::ThinGlass thin_glass(const Directive& directive, ImportState& state) {
   spec::ThinGlass pane;
-  pane.ior.ior = glass_index(directive.parameters, "eta", state);
+  pane.ior.ior = glass_index(directive.parameters, state);
   return pane;
 }
 
 spec::Diffuse replacement(const Directive& directive, ImportState& state) {
-  state.importer.note(
-      directive.where,
+  directive.note(
       fmt::format("a material \"{}\" is not supported: replaced by a diffuse one", directive.type));
   return {reflectance(directive.parameters, "reflectance", 0.5, state)};
 }
 
-// Adds a normal or bump map.
 void add_relief(const Directive& directive, spec::Material& material, ImportState& state) {
   const Parameters& p = directive.parameters;
-  if (const Parameter* map = p.find("normalmap", {"string"}, state.importer)) {
+  if (const Parameter* map = p.find("normalmap", {"string"})) {
     const auto path = state.folder / map->texts.front();
     if (!state.importer.check_file(path, map->where)) return;
     spec::TextureFile file;
     file.image = {{state.importer.name_of(path)}, map->where};
     material.relief = spec::NormalMap{file};
-  } else if (const Parameter* heights = p.find("displacement", {"texture"}, state.importer)) {
+  } else if (const Parameter* heights = p.find("displacement", {"texture"})) {
     if (const auto file = image(heights->texts.front(), heights->where, state))
       material.relief = spec::BumpMap{*file, 1};
   }
@@ -157,7 +153,7 @@ std::string Materials::name_of(const MaterialUse& use) {
   if (!use.interior.empty()) name += " with " + use.interior;
   spec::Material material = converted(use);
   add_relief(use.directive, material, import_);
-  use.directive.parameters.note_unused(fmt::format("material \"{}\"", use.directive.type), import_.importer);
+  use.directive.parameters.note_unused(fmt::format("material \"{}\"", use.directive.type));
   std::string& result = names_[key + "|" + use.interior];
   if (!use.name.empty()) return result = import_.importer.add_material(name, std::move(material));
   const spec::Materials alone{{name, material, {}}};
@@ -186,8 +182,7 @@ spec::Material Materials::converted(const MaterialUse& use) {
   } else if ((type == "interface" || type.empty()) && !use.interior.empty()) {
     material.model = medium_of(use.interior, directive.where, import_);
   } else {
-    if (std::ranges::find(kMaterialTypes, type) == kMaterialTypes.end())
-      import_.importer.diagnostics.error(directive.where, unknown_name("material", type, kMaterialTypes));
+    import_.importer.is_known("material", type, kMaterialTypes, directive.where);
     material.model = replacement(directive, import_);
   }
   return material;
@@ -197,9 +192,9 @@ spec::Material Materials::mixture(const Directive& directive) {
   spec::Mixture parts;
   parts.where = directive.where;
   const double second = number(directive.parameters, "amount", 0.5, import_);
-  const Parameter* names = directive.parameters.find("materials", {"string"}, import_.importer);
+  const Parameter* names = directive.parameters.find("materials", {"string"});
   if (names == nullptr || names->texts.size() != 2) {
-    import_.importer.diagnostics.error(directive.where, "a mix needs \"materials\" with two names");
+    directive.fail("a mix needs \"materials\" with two names");
     return {spec::Diffuse{curve_of(0.5, directive.where, import_.importer)}, {}, {}};
   }
   for (std::size_t i = 0; i < 2; ++i) {
@@ -207,8 +202,7 @@ spec::Material Materials::mixture(const Directive& directive) {
         find(import_.materials, "material", names->texts[i], names->where, import_.importer);
     if (part == nullptr) continue;
     if (part->type == "mix" || part->type == "dielectric" || part->type == "interface") {
-      import_.importer.diagnostics.error(names->where,
-                                         fmt::format("a mix with \"{}\" is not supported", part->type));
+      import_.importer.fail(names->where, fmt::format("a mix with \"{}\" is not supported", part->type));
       continue;
     }
     spec::MixturePart mixed;

@@ -17,15 +17,14 @@ struct MaterialUse {
   std::size_t number = 0;
 };
 
-/// Converts the materials of shapes, each once per interior medium, and adds them to the scene. Equal unnamed
-/// materials become one. The state must outlive it.
+/// Converts the materials of shapes, each once per interior medium. Equal unnamed materials become one. The
+/// state must outlive it.
 class Materials {
  public:
   explicit Materials(ImportState& state) : import_(state) {}
 
   /// Name of the converted material in the written scene. An unknown type is reported, a type without a
-  /// counterpart is noted; both become diffuse. Errors go to the importer's diagnostics. Throws
-  /// Error{resource} if the memory limit of the importer's inputs is exceeded.
+  /// counterpart is noted; both become diffuse.
   [[nodiscard]] std::string name_of(const MaterialUse& use);
 
  private:

@@ -54,8 +54,8 @@ struct SavedState {
   std::map<std::string, M44d> coordinate_systems;
 };
 
-/// Executes the directives of a file of pbrt-v4 and fills `SceneImporter::scene`. Errors go to the importer's
-/// diagnostics. The importer must outlive it; call `read` once.
+/// Executes the directives of a file of pbrt-v4 and fills `SceneImporter::scene`. The importer must outlive
+/// it; call `read` once.
 class Reader {
  public:
   Reader(const std::filesystem::path& file, SceneImporter& importer)
@@ -64,7 +64,7 @@ class Reader {
   }
 
   /// Reads the file to its end. False after an error, of which the first that makes the syntax ambiguous ends
-  /// the reading. Throws Error{resource} if the memory limit of the importer's inputs is exceeded.
+  /// the reading.
   bool read();
 
  private:
@@ -76,7 +76,6 @@ class Reader {
   // `min_count`.
   bool read_names(std::size_t min_count, std::size_t max_count, const Token& word,
                   std::vector<std::string>& to);
-  // Reads a quoted type and the parameters.
   bool read_directive(const Token& word, Directive& to);
   // Reads a quoted name and the parameters, one of which is the type; adds `attributes` as defaults.
   bool read_named_directive(const Token& word, const Parameters& attributes,
@@ -86,9 +85,8 @@ class Reader {
            importer_.refuse(state_stack_.back().second, "the block that begins here is not closed");
   }
   bool require_outside_object(const Token& word) {
-    return object_
-               ? importer_.refuse(word.where, fmt::format("{} is not allowed inside an object", word.text))
-               : true;
+    return !object_ ||
+           importer_.refuse(word.where, fmt::format("{} is not allowed inside an object", word.text));
   }
 
   bool transform(const Token& word);
@@ -220,15 +218,13 @@ bool Reader::read_directive(const Token& word, Directive& to) {
   return true;
 }
 
-// Reads a directive whose type is one of its parameters.
 bool Reader::read_named_directive(const Token& word, const Parameters& attributes,
                                   std::map<std::string, Directive>& to) {
   Directive directive;
   if (!read_directive(word, directive)) return false;
   directive.parameters.add_defaults(attributes);
-  const std::string name = std::exchange(directive.type, directive.parameters.text("type", "", importer_));
-  if (directive.type.empty())
-    importer_.diagnostics.error(word.where, fmt::format("{} needs \"string type\"", word.text));
+  const std::string name = std::exchange(directive.type, directive.parameters.text("type", ""));
+  if (directive.type.empty()) importer_.fail(word.where, fmt::format("{} needs \"string type\"", word.text));
   to[name] = std::move(directive);
   return true;
 }
@@ -300,8 +296,7 @@ bool Reader::attribute_end(const Token& word) {
 bool Reader::attribute(const Token& word) {
   Directive target;
   if (!read_directive(word, target)) return false;
-  if (std::ranges::find(kAttributeTargets, target.type) == kAttributeTargets.end())
-    return importer_.refuse(word.where, unknown_name("target of attributes", target.type, kAttributeTargets));
+  if (!importer_.is_known("target of attributes", target.type, kAttributeTargets, word.where)) return false;
   target.parameters.add_defaults(graphics_state_.attributes[target.type]);
   graphics_state_.attributes[target.type] = target.parameters;
   return true;
@@ -310,15 +305,13 @@ bool Reader::attribute(const Token& word) {
 bool Reader::object_begin(const Token& word) {
   std::vector<std::string> name;
   if (!read_names(1, 1, word, name) || !require_outside_object(word)) return false;
-  state_stack_.emplace_back(graphics_state_, word.where);
   object_ = {name[0], {}, word.where};
-  return true;
+  return attribute_begin(word);
 }
 
 bool Reader::object_end(const Token& word) {
   if (!object_ || state_stack_.empty()) return importer_.refuse(word.where, "ObjectEnd without ObjectBegin");
-  graphics_state_ = std::move(state_stack_.back().first);
-  state_stack_.pop_back();
+  attribute_end(word);
   // An object whose shapes were all dropped has no instances.
   if (object_->value.shapes.empty())
     empty_objects_.push_back(object_->name);
@@ -334,9 +327,7 @@ bool Reader::object_instance(const Token& word) {
   if (std::ranges::find(empty_objects_, name[0]) != empty_objects_.end()) return true;
   std::vector<std::string> names;
   for (const auto& object : importer_.scene.objects) names.push_back(object.name);
-  if (std::ranges::find(names, name[0]) == names.end())
-    importer_.diagnostics.error(word.where, unknown_name("object", name[0], names));
-  else
+  if (importer_.is_known("object", name[0], names, word.where))
     append_instance(name[0], graphics_state_.to_world * import_.world_mirror, word.where, importer_);
   return true;
 }
@@ -391,7 +382,7 @@ bool Reader::colour_space(const Token& word) {
 
 bool Reader::option(const Token& word) {
   const auto parameters = Parameters::read(tokens_, importer_);
-  if (parameters) parameters->note_unused(word.text, importer_);
+  if (parameters) parameters->note_unused(word.text);
   return parameters.has_value();
 }
 
@@ -463,7 +454,7 @@ bool Reader::texture(const Token& word) {
   TextureValue value = texture_of(directive, *kind, import_);
   importer_.reserve_memory(bytes_of_samples(value));
   import_.textures[*kind][names[0]] = std::move(value);
-  directive.parameters.note_unused(fmt::format("texture \"{}\"", directive.type), importer_);
+  directive.parameters.note_unused(fmt::format("texture \"{}\"", directive.type));
   return true;
 }
 
@@ -482,21 +473,22 @@ bool Reader::area_light(const Token& word) {
 }
 
 bool Reader::shape(const Token& word) {
-  ShapeUse use;
-  if (!read_directive(word, use.directive)) return false;
+  Directive directive;
+  if (!read_directive(word, directive)) return false;
   if (!in_world_) return importer_.refuse(word.where, "a shape before WorldBegin");
-  use.directive.parameters.add_defaults(graphics_state_.attributes["shape"]);
+  directive.parameters.add_defaults(graphics_state_.attributes["shape"]);
   const bool bare = graphics_state_.material.directive.type == "interface" ||
                     graphics_state_.material.directive.type.empty();
   if (bare && graphics_state_.interior.empty() && !graphics_state_.area_light)
     return true;  // There is neither a surface nor a medium.
   MaterialUse material = graphics_state_.material;
   if (bare || material.directive.type == "dielectric") material.interior = graphics_state_.interior;
-  use.material = materials_.name_of(material);
-  use.reversed = graphics_state_.reversed;
-  use.emission = graphics_state_.area_light;
-  use.to_world = object_ ? graphics_state_.to_world : graphics_state_.to_world * import_.world_mirror;
-  add_shape(use, object_ ? ShapeOwner::object : ShapeOwner::scene,
+  ImportedShape shape;
+  shape.material = materials_.name_of(material);
+  shape.reversed = graphics_state_.reversed;
+  shape.to_world = object_ ? graphics_state_.to_world : graphics_state_.to_world * import_.world_mirror;
+  add_shape(directive, graphics_state_.area_light, std::move(shape),
+            object_ ? ShapeOwner::object : ShapeOwner::scene,
             object_ ? object_->value.shapes : importer_.scene.shapes, import_);
   return true;
 }

@@ -19,9 +19,7 @@ struct SceneOptions {
 
 /// Sets camera, sensor, render settings and output of `state.importer.scene`, with pbrt's defaults for absent
 /// directives, and `state.world_mirror`. `end` is the position for notes about absent directives. Reports
-/// unknown types of cameras and integrators, a film without pixels and a shutter that does not open, to
-/// `state.importer.diagnostics`. Notes what is approximated or dropped. Throws Error{resource} if the memory
-/// limit of `state.importer.inputs` is exceeded.
+/// unknown types of cameras and integrators, a film without pixels and a shutter that does not open.
 void apply_options(const SceneOptions& options, const SourcePosition& end, ImportState& state);
 
 }  // namespace abbe::importers::pbrt

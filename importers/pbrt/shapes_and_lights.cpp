@@ -23,18 +23,18 @@
 namespace abbe::importers::pbrt {
 namespace {
 
+using spec::Quantity;
 using Surface = decltype(ImportedShape::surface);
 
 const std::vector<std::string> kShapeTypes{"bilinearmesh", "curve",   "cylinder", "disk",
                                            "loopsubdiv",   "plymesh", "sphere",   "trianglemesh"};
 
-void report_missing(const Directive& directive, std::string_view name, ImportState& state) {
-  state.importer.diagnostics.error(directive.where,
-                                   fmt::format("a shape \"{}\" needs \"{}\"", directive.type, name));
+std::nullopt_t report_missing(const Directive& directive, std::string_view name) {
+  return directive.fail(fmt::format("a shape \"{}\" needs \"{}\"", directive.type, name));
 }
 
-std::vector<std::array<double, 3>> points(const Parameters& p, ImportState& state) {
-  const std::vector<double> numbers = p.numbers("P", state.importer);
+std::vector<std::array<double, 3>> points(const Parameters& p) {
+  const std::vector<double> numbers = p.numbers("P");
   std::vector<std::array<double, 3>> points;
   for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
     points.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
@@ -45,69 +45,70 @@ std::vector<std::array<double, 3>> points(const Parameters& p, ImportState& stat
 // Nothing, after an error, if an index is out of range, or if "indices" is absent and the number of points is
 // not `count`.
 std::optional<std::vector<std::uint32_t>> indices(const Directive& directive, std::size_t points,
-                                                  std::size_t count, ImportState& state) {
+                                                  std::size_t count) {
   std::vector<std::uint32_t> indices;
-  if (!directive.parameters.has("indices") && points != count) {
-    state.importer.diagnostics.error(
-        directive.where, fmt::format("a shape \"{}\" needs \"indices\" unless it has {} points (got {})",
-                                     directive.type, count, points));
-    return std::nullopt;
-  }
+  if (!directive.parameters.has("indices") && points != count)
+    return directive.fail(fmt::format("a shape \"{}\" needs \"indices\" unless it has {} points (got {})",
+                                      directive.type, count, points));
   if (!directive.parameters.has("indices")) indices.resize(count);
   std::iota(indices.begin(), indices.end(), 0U);
-  for (const double index : directive.parameters.numbers("indices", state.importer)) {
-    if (index >= 0 && index < static_cast<double>(points)) {
-      indices.push_back(static_cast<std::uint32_t>(index));
-      continue;
-    }
-    state.importer.diagnostics.error(
-        directive.where,
-        fmt::format("an index is out of range (got {}, allowed [0, {}])", index, points - 1));
-    return std::nullopt;
+  for (const double index : directive.parameters.numbers("indices")) {
+    if (!(index >= 0 && index < static_cast<double>(points)))
+      return directive.fail(
+          fmt::format("an index is out of range (got {}, allowed [0, {}])", index, points - 1));
+    indices.push_back(static_cast<std::uint32_t>(index));
   }
   const std::size_t excess = indices.size() % count;
   if (excess > 0)
-    state.importer.note(
-        directive.where,
+    directive.note(
         fmt::format("indices after the last complete face of a shape \"{}\" are dropped", directive.type));
   indices.resize(indices.size() - excess);
   return indices;
 }
 
-void add_coordinates(const Directive& directive, spec::InlineMesh& mesh, ImportState& state) {
+void add_coordinates(const Directive& directive, spec::InlineMesh& mesh) {
   const Parameters& p = directive.parameters;
-  const std::vector<double> uv = p.numbers(p.has("st") ? "st" : "uv", state.importer);
+  const std::vector<double> uv = p.numbers(p.has("st") ? "st" : "uv");
   if (uv.empty()) return;
   if (uv.size() != 2 * mesh.vertices.size())
-    return state.importer.note(
-        directive.where, "texture coordinates whose number differs from that of the points are dropped");
+    return directive.note("texture coordinates whose number differs from that of the points are dropped");
   mesh.uv.emplace();
   for (std::size_t i = 0; i + 1 < uv.size(); i += 2) mesh.uv->value.push_back({uv[i], uv[i + 1]});
 }
 
-void note_normals(const Directive& directive, ImportState& state) {
+void note_normals(const Directive& directive) {
   if (directive.parameters.has("N"))
-    state.importer.note(
-        directive.where,
-        "vertex normals in the scene file are not supported: dropped (mesh files may have them)");
+    directive.note("vertex normals in the scene file are not supported: dropped (mesh files may have them)");
   directive.parameters.ignore({"N", "S", "faceIndices"});
 }
 
-std::optional<Surface> triangle_mesh(const Directive& directive, ImportState& state) {
-  spec::InlineMesh mesh;
-  mesh.where = directive.where;
-  mesh.vertices = points(directive.parameters, state);
-  if (mesh.vertices.empty()) {
-    report_missing(directive, "P", state);
-    return std::nullopt;
-  }
-  const auto corners = indices(directive, mesh.vertices.size(), 3, state);
+/// Vertices of a mesh with their texture coordinates, and indices of the corners of its faces.
+struct Faces {
+  spec::InlineMesh mesh{};
+  std::vector<std::uint32_t> corners{};
+};
+
+// Faces with `count` corners each. Nothing after an error.
+std::optional<Faces> faces_of(const Directive& directive, std::size_t count) {
+  Faces faces;
+  faces.mesh.where = directive.where;
+  faces.mesh.vertices = points(directive.parameters);
+  if (faces.mesh.vertices.empty()) return report_missing(directive, "P");
+  auto corners = indices(directive, faces.mesh.vertices.size(), count);
   if (!corners) return std::nullopt;
-  for (std::size_t i = 0; i + 2 < corners->size(); i += 3)
-    mesh.triangles.push_back({(*corners)[i], (*corners)[i + 1], (*corners)[i + 2]});
-  add_coordinates(directive, mesh, state);
-  note_normals(directive, state);
-  return mesh;
+  faces.corners = *std::move(corners);
+  add_coordinates(directive, faces.mesh);
+  note_normals(directive);
+  return faces;
+}
+
+std::optional<Surface> triangle_mesh(const Directive& directive) {
+  auto faces = faces_of(directive, 3);
+  if (!faces) return std::nullopt;
+  auto& [mesh, corners] = *faces;
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+    mesh.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  return std::move(mesh);
 }
 
 bool is_parallelogram(const Imath::V3d& p00, const Imath::V3d& p10, const Imath::V3d& p01,
@@ -115,7 +116,6 @@ bool is_parallelogram(const Imath::V3d& p00, const Imath::V3d& p10, const Imath:
   return (p00 + p11 - p10 - p01).length() <= 1e-6 * (p11 - p00).length();
 }
 
-// True if the corners have the default texture coordinates of a parallelogram.
 bool has_plain_coordinates(const spec::InlineMesh& mesh, const std::vector<std::uint32_t>& corners) {
   constexpr std::array<std::array<double, 2>, 4> kPlain{{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
   if (!mesh.uv) return true;
@@ -124,43 +124,30 @@ bool has_plain_coordinates(const spec::InlineMesh& mesh, const std::vector<std::
 
 // Bilinear patches. A single parallelogram with default coordinates stays a quad; other patches become
 // triangles.
-std::optional<Surface> bilinear_mesh(const Directive& directive, ImportState& state) {
-  const auto vertices = points(directive.parameters, state);
-  if (vertices.empty()) {
-    report_missing(directive, "P", state);
-    return std::nullopt;
-  }
-  const auto corners = indices(directive, vertices.size(), 4, state);
-  if (!corners) return std::nullopt;
-  const auto at = [&](std::size_t i) {
-    const auto& v = vertices[(*corners)[i]];
+std::optional<Surface> bilinear_mesh(const Directive& directive) {
+  auto faces = faces_of(directive, 4);
+  if (!faces) return std::nullopt;
+  auto& [mesh, corners] = *faces;
+  const auto at = [&vertices = mesh.vertices, &indices = corners](std::size_t i) {
+    const auto& v = vertices[indices[i]];
     return Imath::V3d(v[0], v[1], v[2]);
   };
-  spec::InlineMesh mesh;
-  mesh.where = directive.where;
-  mesh.vertices = vertices;
-  note_normals(directive, state);
-  add_coordinates(directive, mesh, state);
-  for (std::size_t i = 0; i + 3 < corners->size(); i += 4) {
+  for (std::size_t i = 0; i + 3 < corners.size(); i += 4) {
     const bool plain = is_parallelogram(at(i), at(i + 1), at(i + 2), at(i + 3));
-    if (plain && corners->size() == 4 && has_plain_coordinates(mesh, *corners))
+    if (plain && corners.size() == 4 && has_plain_coordinates(mesh, corners))
       return spec::Quad{at(0), at(1) - at(0), at(2) - at(0), directive.where};
     const Imath::V3d normal = (at(i + 1) - at(i)).cross(at(i + 2) - at(i));
     if (std::abs(normal.normalized().dot(at(i + 3) - at(i))) > 1e-6 * (at(i + 3) - at(i)).length())
-      state.importer.note(directive.where, "a curved patch is replaced by two triangles");
-    const auto corner = [&](std::size_t j) { return (*corners)[i + j]; };
-    mesh.triangles.push_back({corner(0), corner(1), corner(3)});
-    mesh.triangles.push_back({corner(0), corner(3), corner(2)});
+      directive.note("a curved patch is replaced by two triangles");
+    mesh.triangles.push_back({corners[i], corners[i + 1], corners[i + 3]});
+    mesh.triangles.push_back({corners[i], corners[i + 3], corners[i + 2]});
   }
-  return mesh;
+  return std::move(mesh);
 }
 
 std::optional<Surface> ply_mesh(const Directive& directive, ImportState& state) {
-  const Parameter* name = directive.parameters.find("filename", {"string"}, state.importer);
-  if (name == nullptr) {
-    report_missing(directive, "filename", state);
-    return std::nullopt;
-  }
+  const Parameter* name = directive.parameters.find("filename", {"string"});
+  if (name == nullptr) return report_missing(directive, "filename");
   const auto path = state.folder / name->texts.front();
   if (!state.importer.check_file(path, name->where)) return std::nullopt;
   // Read once to report its errors at this position.
@@ -171,65 +158,60 @@ std::optional<Surface> ply_mesh(const Directive& directive, ImportState& state) 
   return MeshFileSurface{path};
 }
 
-Surface note_tessellated(Surface surface, const Directive& directive, ImportState& state) {
-  state.importer.note(directive.where,
-                      fmt::format("a curved \"{}\" is replaced by triangles", directive.type));
+Surface note_tessellated(Surface surface, const Directive& directive) {
+  directive.note(fmt::format("a curved \"{}\" is replaced by triangles", directive.type));
   return surface;
 }
 
-std::optional<Surface> sphere(const Directive& directive, ImportState& state) {
+std::optional<Surface> sphere(const Directive& directive) {
   const Parameters& p = directive.parameters;
-  const double radius = p.number("radius", 1, state.importer);
-  const double low = p.number("zmin", -radius, state.importer);
-  const double high = p.number("zmax", radius, state.importer);
-  const double phi = p.number("phimax", 360, state.importer);
+  const double radius = p.number("radius", 1);
+  const double low = p.number("zmin", -radius);
+  const double high = p.number("zmax", radius);
+  const double phi = p.number("phimax", 360);
   if (low <= -radius && high >= radius && phi >= 360) return spec::Sphere{{0, 0, 0}, radius};
-  return note_tessellated(swept_sphere(radius, std::min(low, high), std::max(low, high), phi), directive,
-                          state);
+  return note_tessellated(swept_sphere(radius, std::min(low, high), std::max(low, high), phi), directive);
 }
 
-std::optional<Surface> disk(const Directive& directive, ImportState& state) {
+std::optional<Surface> disk(const Directive& directive) {
   const Parameters& p = directive.parameters;
-  const double height = p.number("height", 0, state.importer);
-  const double radius = p.number("radius", 1, state.importer);
-  const double inner = p.number("innerradius", 0, state.importer);
-  const double phi = p.number("phimax", 360, state.importer);
+  const double height = p.number("height", 0);
+  const double radius = p.number("radius", 1);
+  const double inner = p.number("innerradius", 0);
+  const double phi = p.number("phimax", 360);
   if (inner == 0 && phi >= 360) return spec::Disc{{0, 0, height}, {0, 0, 1}, radius};
-  return note_tessellated(swept({{radius, height}, {inner, height}}, phi), directive, state);
+  return note_tessellated(swept({{radius, height}, {inner, height}}, phi), directive);
 }
 
-std::optional<Surface> cylinder(const Directive& directive, ImportState& state) {
+std::optional<Surface> cylinder(const Directive& directive) {
   const Parameters& p = directive.parameters;
-  const double radius = p.number("radius", 1, state.importer);
-  const double low = p.number("zmin", -1, state.importer);
-  const double high = p.number("zmax", 1, state.importer);
-  const double phi = p.number("phimax", 360, state.importer);
+  const double radius = p.number("radius", 1);
+  const double low = p.number("zmin", -1);
+  const double high = p.number("zmax", 1);
+  const double phi = p.number("phimax", 360);
   if (low < high && phi >= 360)
     return spec::Cylinder{{0, 0, low}, {0, 0, high}, radius, false, directive.where};
-  return note_tessellated(swept({{radius, low}, {radius, high}}, phi), directive, state);
+  return note_tessellated(swept({{radius, low}, {radius, high}}, phi), directive);
 }
 
 std::optional<Surface> surface_of(const Directive& directive, ImportState& state) {
   const std::string& type = directive.type;
-  if (type == "trianglemesh") return triangle_mesh(directive, state);
-  if (type == "bilinearmesh") return bilinear_mesh(directive, state);
+  if (type == "trianglemesh") return triangle_mesh(directive);
+  if (type == "bilinearmesh") return bilinear_mesh(directive);
   if (type == "plymesh") return ply_mesh(directive, state);
-  if (type == "sphere") return sphere(directive, state);
-  if (type == "disk") return disk(directive, state);
-  if (type == "cylinder") return cylinder(directive, state);
-  if (std::ranges::find(kShapeTypes, type) == kShapeTypes.end()) {
-    state.importer.diagnostics.error(directive.where, unknown_name("shape", type, kShapeTypes));
-    return std::nullopt;
-  }
-  state.importer.note(directive.where, fmt::format("a shape \"{}\" is not supported: dropped", type));
+  if (type == "sphere") return sphere(directive);
+  if (type == "disk") return disk(directive);
+  if (type == "cylinder") return cylinder(directive);
+  if (!state.importer.is_known("shape", type, kShapeTypes, directive.where)) return std::nullopt;
+  directive.note(fmt::format("a shape \"{}\" is not supported: dropped", type));
   directive.parameters.ignore(
       {"P", "N", "indices", "levels", "type", "width", "width0", "width1", "basis", "degree"});
   return std::nullopt;
 }
 
 // Adds the vertex normals "N" to the corners, if there is one for each vertex.
-void add_corner_normals(const Parameters& p, Mesh& mesh, ImportState& state) {
-  const std::vector<double> normals = p.numbers("N", state.importer);
+void add_corner_normals(const Parameters& p, Mesh& mesh) {
+  const std::vector<double> normals = p.numbers("N");
   if (normals.size() != 3 * mesh.vertices.size()) return;
   const auto at = [&normals](std::uint32_t i) {
     return Imath::V3f(Imath::V3d(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]));
@@ -244,12 +226,12 @@ Mesh unplaced_triangles(const ImportedShape& shape, const Parameters& p, ImportS
   if (const auto* inline_mesh = std::get_if<spec::InlineMesh>(&shape.surface)) {
     for (const auto& [x, y, z] : inline_mesh->vertices) mesh.vertices.emplace_back(x, y, z);
     mesh.triangles = inline_mesh->triangles;
-    add_corner_normals(p, mesh, state);
+    add_corner_normals(p, mesh);
   }
   if (const auto* quad = std::get_if<spec::Quad>(&shape.surface)) {
     const auto& [corner, u, v, where] = *quad;
     mesh = {{corner, corner + u, corner + v, corner + u + v}, {{0, 1, 3}, {0, 3, 2}}};
-    add_corner_normals(p, mesh, state);
+    add_corner_normals(p, mesh);
   }
   if (const auto* mesh_file = std::get_if<MeshFileSurface>(&shape.surface)) {
     Diagnostics ignored;
@@ -276,75 +258,77 @@ std::vector<double> emitting_faces(const Imath::M44d& to_world, Mesh mesh, const
   return areas.empty() ? std::vector<double>{1} : areas;
 }
 
-spec::Emission emission_of_faces(const ShapeUse& use, const Mesh& mesh, ImportState& state) {
-  const Directive& light = *use.emission;
-  const std::string& type = use.directive.type;
-  if (!light.parameters.has("power")) return area_emission(light, {1}, state);
-  if (type == "plymesh")
-    state.importer.note(use.directive.where,
-                        "\"power\" applies to each face of a \"plymesh\": a quad, one face in pbrt, counts "
-                        "as two triangles in Abbe");
-  return area_emission(light, emitting_faces(use.to_world, mesh, type), state);
-}
-
-using spec::Quantity;
-
 const std::vector<std::string> kLightTypes{"distant", "goniometric", "infinite",
                                            "point",   "projection",  "spot"};
 const LinearRgb kWhite{1, 1, 1};
 
 // Emission spectrum of a light. pbrt normalises it to unit luminance and multiplies by "scale".
 ImportedLightSpectrum light_spectrum(const Directive& light, std::string_view name, ImportState& state) {
-  const double scale = light.parameters.number("scale", 1, state.importer);
+  const double scale = light.parameters.number("scale", 1);
   return light_spectrum_of(spectrum(light.parameters, name, kWhite, state), scale, light.where,
                            state.importer);
 }
 
 // Scales the emission to a photometric quantity that the parameter `name` requests, such as lumens or lux.
 // `factor` converts it to the quantity of `emitted`.
-void rescale(const Directive& light, std::string_view name, double factor, ImportedLightSpectrum& emitted,
-             ImportState& state) {
-  const double requested = light.parameters.number(name, 0, state.importer);
+void rescale(const Directive& light, std::string_view name, double factor, ImportedLightSpectrum& emitted) {
+  const double requested = light.parameters.number(name, 0);
   if (requested > 0 && emitted.photometric) *emitted.photometric *= requested * factor;
 }
 
-Imath::V3d transformed(const Imath::V3d& p, const Imath::M44d& m) {
-  return p * m;
+// The emission of a surface with the area light `light`: its luminance, or its luminous flux if the light has
+// a "power", which pbrt gives to each face. If their areas differ, the total is spread evenly, which is
+// noted: in pbrt such faces differ in radiance.
+spec::Emission area_emission(const Directive& light, const Directive& shape, const Imath::M44d& to_world,
+                             const Mesh& mesh, ImportState& state) {
+  state.importer.is_known("area light", light.type, {"diffuse"}, light.where);
+  if (light.parameters.has("power") && shape.type == "plymesh")
+    shape.note(
+        "\"power\" applies to each face of a \"plymesh\": a quad, one face in pbrt, counts "
+        "as two triangles in Abbe");
+  ImportedLightSpectrum emitted = light_spectrum(light, "L", state);
+  const double power = light.parameters.number("power", 0);
+  if (!(power > 0) || !emitted.photometric) return emission_of<Quantity::luminance>(emitted);
+  const std::vector<double> faces = emitting_faces(to_world, mesh, shape.type);
+  *emitted.photometric *= power * static_cast<double>(faces.size());
+  constexpr double kSameArea = 1e-5;
+  const auto [min_area, max_area] = std::ranges::minmax(faces);
+  if (max_area - min_area > kSameArea * max_area)
+    light.note(
+        "\"power\" of pbrt applies to each face, so that faces of different areas differ in "
+        "radiance: Abbe spreads the power evenly");
+  return emission_of<Quantity::luminous_flux>(emitted);
 }
 
 void add_point(const Directive& light, const Imath::M44d& m, ImportState& state) {
   ImportedLightSpectrum emitted = light_spectrum(light, "I", state);
-  rescale(light, "power", 1 / (4 * std::numbers::pi), emitted, state);
-  const Imath::V3d at = transformed(light.parameters.point("from", {0, 0, 0}, state.importer), m);
-  append_light(
-      spec::PointLightSource{{at}, emission_of<spec::PointEmission, Quantity::luminous_intensity>(emitted)},
-      light.where, state.importer);
+  rescale(light, "power", 1 / (4 * std::numbers::pi), emitted);
+  const Imath::V3d at = light.parameters.point("from", {0, 0, 0}) * m;
+  append_light<spec::PointLightSource, Quantity::luminous_intensity>({at}, emitted, light.where,
+                                                                     state.importer);
 }
 
 void add_spot(const Directive& light, const Imath::M44d& m, ImportState& state) {
   const Parameters& p = light.parameters;
   ImportedLightSpectrum emitted = light_spectrum(light, "I", state);
-  const double outer = p.number("coneangle", 30, state.importer);
-  const double inner = outer - p.number("conedeltaangle", 5, state.importer);
+  const double outer = p.number("coneangle", 30);
+  const double inner = outer - p.number("conedeltaangle", 5);
   const double half_angle = hard_cone(inner, outer, Falloff::smooth_cosine, light.where, state.importer);
   const double solid_angle = 2 * std::numbers::pi * (1 - std::cos(half_angle * std::numbers::pi / 180));
-  rescale(light, "power", 1 / solid_angle, emitted, state);
-  const Imath::V3d from = transformed(p.point("from", {0, 0, 0}, state.importer), m);
-  const Imath::V3d to = transformed(p.point("to", {0, 0, 1}, state.importer), m);
-  append_light(spec::SpotLightSource{{from, to - from, half_angle},
-                                     emission_of<spec::PointEmission, Quantity::luminous_intensity>(emitted)},
-               light.where, state.importer);
+  rescale(light, "power", 1 / solid_angle, emitted);
+  const Imath::V3d from = p.point("from", {0, 0, 0}) * m;
+  const Imath::V3d to = p.point("to", {0, 0, 1}) * m;
+  append_light<spec::SpotLightSource, Quantity::luminous_intensity>({from, to - from, half_angle}, emitted,
+                                                                    light.where, state.importer);
 }
 
 void add_distant(const Directive& light, const Imath::M44d& m, ImportState& state) {
   ImportedLightSpectrum emitted = light_spectrum(light, "L", state);
-  rescale(light, "illuminance", 1, emitted, state);
-  const Imath::V3d from = transformed(light.parameters.point("from", {0, 0, 0}, state.importer), m);
-  const Imath::V3d to = transformed(light.parameters.point("to", {0, 0, 1}, state.importer), m);
-  spec::DirectionalLightSource directional;
-  directional.source.towards = from - to;
-  directional.emission = emission_of<spec::DirectionalLightEmission, Quantity::illuminance>(emitted);
-  append_light(directional, light.where, state.importer);
+  rescale(light, "illuminance", 1, emitted);
+  const Imath::V3d from = light.parameters.point("from", {0, 0, 0}) * m;
+  const Imath::V3d to = light.parameters.point("to", {0, 0, 1}) * m;
+  append_light<spec::DirectionalLightSource, Quantity::illuminance>({from - to, {}}, emitted, light.where,
+                                                                    state.importer);
 }
 
 // Emission spectrum of the mean of an environment image. Its pixels have equal solid angles, so the mean is
@@ -357,74 +341,49 @@ std::optional<ImportedLightSpectrum> mean_light_spectrum(const Directive& light,
   if (!colour) return std::nullopt;
   const double max_value = *std::ranges::max_element(*colour);
   if (!(max_value > 0)) {
-    importer.note(light.where, "an environment image is black: dropped");
+    light.note("an environment image is black: dropped");
     return std::nullopt;
   }
-  importer.note(light.where,
-                "the equal-area layout of an environment image is not supported: replaced by a uniform "
-                "environment of the mean colour");
+  light.note(
+      "the equal-area layout of an environment image is not supported: replaced by a uniform "
+      "environment of the mean colour");
   for (double& value : *colour) value /= max_value;
-  const double scale = light.parameters.number("scale", 1, importer);
+  const double scale = light.parameters.number("scale", 1);
   ImportedLightSpectrum emitted = light_spectrum_of(*colour, scale * max_value, light.where, importer);
-  if (light.parameters.number("illuminance", 0, importer) > 0)
-    emitted.photometric = kLuminousEfficacy * scale;
+  if (light.parameters.number("illuminance", 0) > 0) emitted.photometric = kLuminousEfficacy * scale;
   return emitted;
 }
 
 void add_infinite(const Directive& light, ImportState& state) {
-  const Parameter* file = light.parameters.find("filename", {"string"}, state.importer);
-  const std::optional<ImportedLightSpectrum> base =
+  const Parameter* file = light.parameters.find("filename", {"string"});
+  std::optional<ImportedLightSpectrum> emitted =
       file ? mean_light_spectrum(light, *file, state) : std::optional(light_spectrum(light, "L", state));
-  if (!base) return;
-  ImportedLightSpectrum emitted = *base;
-  rescale(light, "illuminance", 1 / std::numbers::pi, emitted, state);
+  if (!emitted) return;
+  rescale(light, "illuminance", 1 / std::numbers::pi, *emitted);
   light.parameters.ignore({"portal"});
-  spec::EnvironmentLightSource environment;
-  environment.emission = emission_of<spec::EnvironmentLightEmission, Quantity::luminance>(emitted);
-  environment.source.where = light.where;
-  append_light(environment, light.where, state.importer);
+  append_light<spec::EnvironmentLightSource, Quantity::luminance>({{}, light.where}, *emitted, light.where,
+                                                                  state.importer);
 }
 
 }  // namespace
 
-void add_shape(const ShapeUse& use, ShapeOwner owner, std::vector<spec::Shape>& shapes, ImportState& state) {
-  auto surface = surface_of(use.directive, state);
-  use.directive.parameters.note_unused(fmt::format("shape \"{}\"", use.directive.type), state.importer);
+void add_shape(const Directive& directive, const std::optional<Directive>& light, ImportedShape shape,
+               ShapeOwner owner, std::vector<spec::Shape>& shapes, ImportState& state) {
+  auto surface = surface_of(directive, state);
+  directive.parameters.note_unused(fmt::format("shape \"{}\"", directive.type));
   if (!surface) return;
-  ImportedShape shape;
   shape.surface = *std::move(surface);
-  shape.to_world = use.to_world;
-  shape.reversed = use.reversed;
-  shape.material = use.material;
-  shape.where = use.directive.where;
-  if (use.emission && owner == ShapeOwner::object) {
-    state.importer.note(use.directive.where, "emission inside objects is not supported: dropped");
-  } else if (use.emission) {
-    const Mesh mesh = unplaced_triangles(shape, use.directive.parameters, state);
-    shape.emission = emission_of_faces(use, mesh, state);
-    shape.two_sided = use.emission->parameters.boolean("twosided", false, state.importer);
+  shape.where = directive.where;
+  if (light && owner == ShapeOwner::object) {
+    directive.note("emission inside objects is not supported: dropped");
+  } else if (light) {
+    const Mesh mesh = unplaced_triangles(shape, directive.parameters, state);
+    shape.emission = area_emission(*light, directive, shape.to_world, mesh, state);
+    shape.two_sided = light->parameters.boolean("twosided", false);
     orient_by_normals(mesh, shape, state.importer);
-    use.emission->parameters.note_unused("area light", state.importer);
+    light->parameters.note_unused("area light");
   }
   append_shape(std::move(shape), owner, shapes, state.importer);
-}
-
-spec::Emission area_emission(const Directive& light, const std::vector<double>& faces, ImportState& state) {
-  if (light.type != "diffuse")
-    state.importer.diagnostics.error(
-        light.where, unknown_name("area light", light.type, std::vector<std::string>{"diffuse"}));
-  ImportedLightSpectrum emitted = light_spectrum(light, "L", state);
-  const double power = light.parameters.number("power", 0, state.importer);
-  if (!(power > 0) || !emitted.photometric)
-    return emission_of<spec::AreaLightEmission, Quantity::luminance>(emitted);
-  *emitted.photometric *= power * static_cast<double>(faces.size());
-  constexpr double kSameArea = 1e-5;
-  const auto [min_area, max_area] = std::ranges::minmax(faces);
-  if (max_area - min_area > kSameArea * max_area)
-    state.importer.note(light.where,
-                        "\"power\" of pbrt applies to each face, so that faces of different areas differ in "
-                        "radiance: Abbe spreads the power evenly");
-  return emission_of<spec::AreaLightEmission, Quantity::luminous_flux>(emitted);
 }
 
 void add_light(const Directive& light, const Imath::M44d& to_world, ImportState& state) {
@@ -436,13 +395,11 @@ void add_light(const Directive& light, const Imath::M44d& to_world, ImportState&
     add_distant(light, to_world, state);
   } else if (light.type == "infinite") {
     add_infinite(light, state);
-  } else if (std::ranges::find(kLightTypes, light.type) == kLightTypes.end()) {
-    state.importer.diagnostics.error(light.where, unknown_name("light", light.type, kLightTypes));
-  } else {
-    state.importer.note(light.where, fmt::format("a light \"{}\" is not supported: dropped", light.type));
+  } else if (state.importer.is_known("light", light.type, kLightTypes, light.where)) {
+    light.note(fmt::format("a light \"{}\" is not supported: dropped", light.type));
     return;
   }
-  light.parameters.note_unused(fmt::format("light \"{}\"", light.type), state.importer);
+  light.parameters.note_unused(fmt::format("light \"{}\"", light.type));
 }
 
 }  // namespace abbe::importers::pbrt

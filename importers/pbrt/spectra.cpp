@@ -117,18 +117,14 @@ std::optional<Spectrum> file_or_name(const std::string& name, const SourcePositi
   if (const auto shipped = renamed(kMetals, metal)) return index_samples(*shipped, extinction, where, state);
   if (const auto glass = renamed(kGlasses, name)) return index_samples(*glass, false, where, state);
   if (name.find('.') != std::string::npos) {
-    auto samples = read_spectrum_file(state.folder / name, where, state.importer);
-    if (!samples) return std::nullopt;
-    samples->outside = Outside::zero;
-    return *samples;
+    return read_spectrum_file(state.folder / name, where, state.importer);
   }
   std::vector<std::string> names;
   add_names(kIlluminants, names);
   for (const Renamed& entry : kMetals) add_metal(entry.source_name, names);
   add_metal(kMagnesia, names);
   add_names(kGlasses, names);
-  state.importer.diagnostics.error(where, unknown_name("spectrum", name, names));
-  return std::nullopt;
+  return state.importer.fail(where, unknown_name("spectrum", name, names));
 }
 
 std::optional<Spectrum> spectrum_of(const Parameter& parameter, ImportState& state) {
@@ -137,20 +133,11 @@ std::optional<Spectrum> spectrum_of(const Parameter& parameter, ImportState& sta
   if (parameter.type == "rgb" || parameter.type == "color")
     return LinearRgb{parameter.numbers[0], parameter.numbers[1], parameter.numbers[2]};
   if (!parameter.texts.empty()) return file_or_name(parameter.texts.front(), parameter.where, state);
-  Samples samples{{}, {}, Outside::zero};
-  for (std::size_t i = 0; i + 1 < parameter.numbers.size(); i += 2) {
-    samples.nm.push_back(parameter.numbers[i]);
-    samples.values.push_back(parameter.numbers[i + 1]);
-  }
-  if (parameter.numbers.size() % 2 != 0) {
-    state.importer.diagnostics.error(parameter.where,
-                                     fmt::format("\"{}\" takes pairs of wavelength and value (got "
-                                                 "{} numbers)",
-                                                 parameter.name, parameter.numbers.size()));
-    return std::nullopt;
-  }
-  if (!check_samples(samples, parameter.where, state.importer)) return std::nullopt;
-  return samples;
+  if (parameter.numbers.size() % 2 != 0)
+    return state.importer.fail(parameter.where,
+                               fmt::format("\"{}\" takes pairs of wavelength and value (got {} numbers)",
+                                           parameter.name, parameter.numbers.size()));
+  return samples_of_pairs(parameter.numbers, parameter.where, state.importer);
 }
 
 // The texture of that kind and name; an unknown one is reported.
@@ -160,12 +147,44 @@ const TextureValue* find_texture(TextureKind kind, const std::string& name, cons
   return find(state.textures[kind], what, name, where, state.importer);
 }
 
-// The value of a "scale" texture.
+// The spectrum of a parameter, or the texture that it names.
+TextureValue texture(const Parameters& parameters, std::string_view name, const Spectrum& fallback,
+                     TextureKind kind, ImportState& state) {
+  const Parameter* found =
+      parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum", "texture"});
+  if (found == nullptr) return fallback;
+  if (found->type != "texture") return spectrum_of(*found, state).value_or(fallback);
+  const TextureValue* known = find_texture(kind, found->texts.front(), found->where, state);
+  return known ? *known : TextureValue(fallback);
+}
+
+// The image file of an "imagemap" texture with its mapping. Nothing after an error.
+std::optional<spec::TextureFile> image_file(const Parameters& parameters, const SourcePosition& where,
+                                            ImportState& state) {
+  SceneImporter& importer = state.importer;
+  const Parameter* name = parameters.find("filename", {"string"});
+  if (name == nullptr) return importer.fail(where, "an image needs \"filename\"");
+  const auto path = state.folder / name->texts.front();
+  if (!importer.check_file(path, name->where)) return std::nullopt;
+  spec::TextureFile file;
+  file.image = {{importer.name_of(path)}, name->where};
+  file.mapping.scale = {parameters.number("uscale", 1), parameters.number("vscale", 1)};
+  file.mapping.offset = {parameters.number("udelta", 0), parameters.number("vdelta", 0)};
+  const std::string wrap = parameters.text("wrap", "repeat");
+  importer.is_known("wrap mode", wrap, {"black", "clamp", "octahedralsphere", "repeat"}, where);
+  if (wrap != "repeat") file.mapping.wrap = TextureWrap::clamp;
+  if (wrap == "black" || wrap == "octahedralsphere")
+    importer.note(
+        where, fmt::format("the wrap mode \"{}\" is not supported: the image is clamped at its edges", wrap));
+  if (parameters.text("filter", "bilinear") == "point") file.mapping.filter = TextureFilter::nearest;
+  return file;
+}
+
 TextureValue scaled_texture(const Directive& directive, TextureKind kind, ImportState& state) {
   TextureValue value = texture(directive.parameters, "tex", 1.0, kind, state);
   const double factor = number(directive.parameters, "scale", 1, state);
   if (auto* spectrum = std::get_if<Spectrum>(&value)) return scaled(*spectrum, factor);
-  if (factor != 1) state.importer.note(directive.where, "a scale of an image is not supported: dropped");
+  if (factor != 1) directive.note("a scale of an image is not supported: dropped");
   return value;
 }
 
@@ -177,14 +196,12 @@ TextureValue texture_of(const Directive& directive, TextureKind kind, ImportStat
   if (directive.type == "imagemap") {
     const auto file = image_file(directive.parameters, directive.where, state);
     if (!file) return Spectrum(0.5);
-    const std::string encoding = directive.parameters.text("encoding", "sRGB", state.importer);
+    const std::string encoding = directive.parameters.text("encoding", "sRGB");
     if (encoding != "linear" && encoding != "sRGB")
-      state.importer.note(directive.where, "a gamma encoding of an image is not supported: sRGB is used");
+      directive.note("a gamma encoding of an image is not supported: sRGB is used");
     return colours_of(*file, encoding == "linear", directive.where, state.importer);
   }
-  state.importer.note(
-      directive.where,
-      fmt::format("a texture \"{}\" is not supported: replaced by a constant", directive.type));
+  directive.note(fmt::format("a texture \"{}\" is not supported: replaced by a constant", directive.type));
   for (const std::string_view first : {"tex1", "inside", "value"})
     if (directive.parameters.has(first)) return texture(directive.parameters, first, 0.5, kind, state);
   return Spectrum(0.5);
@@ -192,25 +209,13 @@ TextureValue texture_of(const Directive& directive, TextureKind kind, ImportStat
 
 Spectrum spectrum(const Parameters& parameters, std::string_view name, const Spectrum& fallback,
                   ImportState& state) {
-  const Parameter* found =
-      parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum"}, state.importer);
+  const Parameter* found = parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum"});
   return found ? spectrum_of(*found, state).value_or(fallback) : fallback;
-}
-
-TextureValue texture(const Parameters& parameters, std::string_view name, const Spectrum& fallback,
-                     TextureKind kind, ImportState& state) {
-  const Parameter* found =
-      parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum", "texture"}, state.importer);
-  if (found == nullptr) return fallback;
-  if (found->type != "texture") return spectrum_of(*found, state).value_or(fallback);
-  const TextureValue* known = find_texture(kind, found->texts.front(), found->where, state);
-  return known ? *known : TextureValue(fallback);
 }
 
 spec::Reflectance reflectance(const Parameters& parameters, std::string_view name, double fallback,
                               ImportState& state) {
-  const Parameter* found =
-      parameters.find(name, {"float", "rgb", "color", "spectrum", "texture"}, state.importer);
+  const Parameter* found = parameters.find(name, {"float", "rgb", "color", "spectrum", "texture"});
   TextureValue value = texture(parameters, name, fallback, TextureKind::spectrum, state);
   if (auto* image = std::get_if<spec::Texture>(&value)) return *image;
   return curve_of(std::get<Spectrum>(value), found ? found->where : SourcePosition{}, state.importer);
@@ -219,7 +224,7 @@ spec::Reflectance reflectance(const Parameters& parameters, std::string_view nam
 double number(const Parameters& parameters, std::string_view name, double fallback, ImportState& state) {
   const TextureValue value = texture(parameters, name, fallback, TextureKind::number, state);
   if (const auto* spectrum = std::get_if<Spectrum>(&value)) return number_of(*spectrum).value_or(fallback);
-  const Parameter* found = parameters.find(name, {"texture"}, state.importer);
+  const Parameter* found = parameters.find(name, {"texture"});
   state.importer.note(found->where,
                       fmt::format("an image as \"{}\" is not supported: {} is used", name, fallback));
   return fallback;
@@ -238,38 +243,11 @@ std::optional<spec::TextureFile> image(const std::string& name, const SourcePosi
   return std::nullopt;
 }
 
-std::optional<spec::TextureFile> image_file(const Parameters& parameters, const SourcePosition& where,
-                                            ImportState& state) {
-  SceneImporter& importer = state.importer;
-  const Parameter* name = parameters.find("filename", {"string"}, importer);
-  if (name == nullptr) {
-    importer.diagnostics.error(where, "an image needs \"filename\"");
-    return std::nullopt;
-  }
-  const auto path = state.folder / name->texts.front();
-  if (!importer.check_file(path, name->where)) return std::nullopt;
-  spec::TextureFile file;
-  file.image = {{importer.name_of(path)}, name->where};
-  file.mapping.scale = {parameters.number("uscale", 1, importer), parameters.number("vscale", 1, importer)};
-  file.mapping.offset = {parameters.number("udelta", 0, importer), parameters.number("vdelta", 0, importer)};
-  const std::string wrap = parameters.text("wrap", "repeat", importer);
-  const std::vector<std::string> wraps{"black", "clamp", "octahedralsphere", "repeat"};
-  if (std::ranges::find(wraps, wrap) == wraps.end())
-    importer.diagnostics.error(where, unknown_name("wrap mode", wrap, wraps));
-  if (wrap != "repeat") file.mapping.wrap = TextureWrap::clamp;
-  if (wrap == "black" || wrap == "octahedralsphere")
-    importer.note(
-        where, fmt::format("the wrap mode \"{}\" is not supported: the image is clamped at its edges", wrap));
-  if (parameters.text("filter", "bilinear", importer) == "point")
-    file.mapping.filter = TextureFilter::nearest;
-  return file;
-}
-
 spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::string_view k,
                       ImportState& state) {
   static constexpr std::initializer_list<const char*> kTypes{"spectrum", "rgb", "float"};
-  const Parameter* n = parameters.find(eta, kTypes, state.importer);
-  const Parameter* extinction = parameters.find(k, kTypes, state.importer);
+  const Parameter* n = parameters.find(eta, kTypes);
+  const Parameter* extinction = parameters.find(k, kTypes);
   const auto name_of = [](const Parameter* parameter, const char* fallback) {
     if (parameter == nullptr) return std::string(fallback);
     return parameter->texts.empty() ? std::string() : parameter->texts.front();
@@ -278,11 +256,10 @@ spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::s
   const std::string k_name = name_of(extinction, kCopperK);
   spec::Ior ior;
   if (n != nullptr || extinction != nullptr) ior.where = n != nullptr ? n->where : extinction->where;
-  if (metal_of(n_name, kEta) == metal_of(k_name, kK)) {
-    if (const auto metal = renamed(kMetals, metal_of(n_name, kEta))) {
-      ior.value = *metal;
-      return ior;
-    }
+  const auto metal = renamed(kMetals, metal_of(n_name, kEta));
+  if (metal && metal_of(n_name, kEta) == metal_of(k_name, kK)) {
+    ior.value = *metal;
+    return ior;
   }
   const auto spectrum_or_copper = [&](const Parameter* parameter, const char* copper) {
     return (parameter ? spectrum_of(*parameter, state) : file_or_name(copper, ior.where, state))
@@ -292,12 +269,12 @@ spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::s
                   state.importer);
 }
 
-spec::Ior glass_index(const Parameters& parameters, std::string_view eta, ImportState& state) {
-  const Parameter* n = parameters.find(eta, {"spectrum", "float", "rgb", "texture"}, state.importer);
+spec::Ior glass_index(const Parameters& parameters, ImportState& state) {
+  const Parameter* n = parameters.find("eta", {"spectrum", "float", "rgb", "texture"});
   spec::Ior ior;
   ior.value = 1.5;
   if (n == nullptr) return ior;
-  const Spectrum value = spectrum(parameters, eta, 1.5, state);
+  const Spectrum value = spectrum(parameters, "eta", 1.5, state);
   ior = index_of(value, 0.0, n->where, state.importer);
   if (const auto* constant = std::get_if<spec::MetalIor>(&ior.value)) ior.value = double{constant->n};
   return ior;

@@ -30,14 +30,9 @@ struct Step {
 
 // World-to-camera matrix of LookAt, for a camera with x to the right, y up and z forward.
 Step look_at(const std::vector<double>& n) {
-  const V3d from(n[0], n[1], n[2]);
-  const V3d z = (V3d(n[3], n[4], n[5]) - from).normalized();
-  const V3d right = V3d(n[6], n[7], n[8]).normalized().cross(z);
-  if (z.length2() == 0 || right.length2() < 1e-24)
-    return {{}, "the view direction is zero or parallel to up"};
-  const V3d x = right.normalized();
-  const V3d y = z.cross(x);
-  return {M44d(x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, from.x, from.y, from.z, 1).inverse()};
+  const auto camera = looking_at({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, V3d(n[6], n[7], n[8]).normalized());
+  if (!camera) return {{}, "the view direction is zero or parallel to up"};
+  return {camera->inverse()};
 }
 
 Step translate(const std::vector<double>& n) {
@@ -81,6 +76,9 @@ constexpr std::array<TransformDirective, 7> kTransformDirectives{{{"Identity", 0
                                                                   {"ConcatTransform", 16, matrix, false}}};
 
 enum class Values { numbers, integers, texts, booleans, either };
+// Nouns for messages, in the order of `Values`.
+constexpr std::array<const char*, 5> kExpected{"a number", "an integer", "a quoted text", "true or false",
+                                               "a number or a quoted text"};
 struct Type {
   const char* name;
   Values values;
@@ -109,29 +107,6 @@ const Type* type_of(const std::string& name) {
   return type == kParameterTypes.end() ? nullptr : type;
 }
 
-std::vector<std::string> type_names() {
-  std::vector<std::string> names;
-  for (const Type& type : kParameterTypes) names.emplace_back(type.name);
-  return names;
-}
-
-std::string_view expected(Values values) {
-  switch (values) {
-    case Values::numbers:
-      return "a number";
-    case Values::integers:
-      return "an integer";
-    case Values::texts:
-      return "a quoted text";
-    case Values::booleans:
-      return "true or false";
-    case Values::either:
-      break;
-  }
-  return "a number or a quoted text";
-}
-
-// Adds a value to the parameter. False if it is not of its type.
 bool add(const Token& token, Values values, Parameter& parameter) {
   const bool boolean = token.text == "true" || token.text == "false";
   if (values == Values::booleans) {
@@ -148,7 +123,6 @@ bool add(const Token& token, Values values, Parameter& parameter) {
   return true;
 }
 
-// Reads "type name".
 bool read_head(const Token& token, Parameter& parameter, SceneImporter& importer) {
   const auto gap = token.text.find_first_of(" \t");
   const auto name = gap == std::string::npos ? gap : token.text.find_first_not_of(" \t", gap);
@@ -160,7 +134,9 @@ bool read_head(const Token& token, Parameter& parameter, SceneImporter& importer
   while (parameter.name.ends_with(' ')) parameter.name.pop_back();
   parameter.where = token.where;
   if (type_of(parameter.type) != nullptr) return true;
-  return importer.refuse(token.where, unknown_name("type of parameter", parameter.type, type_names()));
+  std::vector<std::string> names;
+  for (const Type& type : kParameterTypes) names.emplace_back(type.name);
+  return importer.is_known("type of parameter", parameter.type, names, token.where);
 }
 
 std::size_t bytes_of_lists(const Parameter& parameter) {
@@ -178,9 +154,10 @@ bool read_values(Tokens& tokens, Parameter& parameter, SceneImporter& importer) 
     const std::size_t before = bytes_of_lists(parameter);
     const bool added = add(*token, type.values, parameter);
     parameter.memory.grow_by(bytes_of_lists(parameter) - before + (token->quoted ? token->text.size() : 0));
-    return added || importer.refuse(token->where, fmt::format("expected {} of \"{} {}\" (got \"{}\")",
-                                                              expected(type.values), parameter.type,
-                                                              parameter.name, token->text));
+    return added ||
+           importer.refuse(token->where, fmt::format("expected {} of \"{} {}\" (got \"{}\")",
+                                                     kExpected.at(static_cast<std::size_t>(type.values)),
+                                                     parameter.type, parameter.name, token->text));
   };
   std::optional<Token> token = tokens.next();
   if (!token || !token->is("[")) {
@@ -215,7 +192,7 @@ void Tokens::open(const std::filesystem::path& file) {
 
 void Tokens::include(const std::filesystem::path& file, const SourcePosition& where) {
   if (files_.size() == kMaxFiles) {
-    importer_.diagnostics.error(where, fmt::format("files are included more than {} levels deep", kMaxFiles));
+    importer_.fail(where, fmt::format("files are included more than {} levels deep", kMaxFiles));
     failed_ = true;
   } else if (!importer_.count_include(where) || !is_file(file, where, importer_.diagnostics)) {
     failed_ = true;
@@ -276,7 +253,7 @@ std::optional<Token> Tokens::read_quoted(OpenFile& file) {
     if (text[i] == '\\' && i + 1 < text.size()) ++i;
     word += text[i];
   }
-  importer_.diagnostics.error(end_, "a quoted text without its closing quote");
+  importer_.fail(end_, "a quoted text without its closing quote");
   failed_ = true;
   return std::nullopt;
 }
@@ -316,7 +293,7 @@ bool apply_transform(const Token& word, Tokens& tokens, M44d& to_world, SceneImp
 }
 
 std::optional<Parameters> Parameters::read(Tokens& tokens, SceneImporter& importer) {
-  Parameters parameters;
+  Parameters parameters(importer);
   while (tokens.peek() && tokens.peek()->quoted) {
     Parameter parameter;
     if (!read_head(*tokens.next(), parameter, importer) || !read_values(tokens, parameter, importer))
@@ -336,62 +313,57 @@ bool Parameters::has(std::string_view name) const {
   return std::ranges::find(list_, name, &Parameter::name) != list_.end();
 }
 
-const Parameter* Parameters::find(std::string_view name, std::initializer_list<const char*> types,
-                                  SceneImporter& importer) const {
+const Parameter* Parameters::find(std::string_view name, std::initializer_list<const char*> types) const {
   const auto found = std::ranges::find(list_, name, &Parameter::name);
   if (found == list_.end()) return nullptr;
   found->used = true;
   if (std::ranges::find(types, found->type) != types.end()) return &*found;
-  importer.diagnostics.error(found->where, fmt::format("\"{}\" has a wrong type (got {}, allowed {})", name,
-                                                       found->type, fmt::join(types, ", ")));
+  importer_->fail(found->where, fmt::format("\"{}\" has a wrong type (got {}, allowed {})", name, found->type,
+                                            fmt::join(types, ", ")));
   return nullptr;
 }
 
 // The parameter called `name` if it has `count` values; others are reported.
 const Parameter* Parameters::single(std::string_view name, std::initializer_list<const char*> types,
-                                    std::size_t count, SceneImporter& importer) const {
-  const Parameter* found = find(name, types, importer);
+                                    std::size_t count) const {
+  const Parameter* found = find(name, types);
   if (found == nullptr) return nullptr;
   const std::size_t values = found->numbers.size() + found->texts.size();
   if (values == count) return found;
-  importer.diagnostics.error(found->where,
-                             fmt::format("\"{}\" takes {} (got {})", name,
-                                         count == 1 ? "one value" : fmt::format("{} values", count), values));
+  importer_->fail(found->where,
+                  fmt::format("\"{}\" takes {} (got {})", name,
+                              count == 1 ? "one value" : fmt::format("{} values", count), values));
   return nullptr;
 }
 
-double Parameters::number(std::string_view name, double fallback, SceneImporter& importer) const {
-  const Parameter* found = single(name, {"float"}, 1, importer);
+double Parameters::number(std::string_view name, double fallback) const {
+  const Parameter* found = single(name, {"float"}, 1);
   return found ? found->numbers.front() : fallback;
 }
 
-double Parameters::integer(std::string_view name, double fallback, SceneImporter& importer) const {
-  const Parameter* found = single(name, {"integer"}, 1, importer);
-  return found ? found->numbers.front() : fallback;
+int Parameters::integer(std::string_view name, int fallback) const {
+  const Parameter* found = single(name, {"integer"}, 1);
+  return found ? static_cast<int>(std::clamp(found->numbers.front(), -1e9, 1e9)) : fallback;
 }
 
-bool Parameters::boolean(std::string_view name, bool fallback, SceneImporter& importer) const {
-  const Parameter* found = single(name, {"bool"}, 1, importer);
+bool Parameters::boolean(std::string_view name, bool fallback) const {
+  const Parameter* found = single(name, {"bool"}, 1);
   return found ? found->texts.front() == "true" : fallback;
 }
 
-std::string Parameters::text(std::string_view name, const std::string& fallback,
-                             SceneImporter& importer) const {
-  const Parameter* found = single(name, {"string", "texture"}, 1, importer);
+std::string Parameters::text(std::string_view name, const std::string& fallback) const {
+  const Parameter* found = single(name, {"string", "texture"}, 1);
   return found ? found->texts.front() : fallback;
 }
 
-Imath::V3d Parameters::point(std::string_view name, const Imath::V3d& fallback,
-                             SceneImporter& importer) const {
-  const Parameter* found = single(name, {"point3", "point", "vector3", "vector"}, 3, importer);
+Imath::V3d Parameters::point(std::string_view name, const Imath::V3d& fallback) const {
+  const Parameter* found = single(name, {"point3", "point", "vector3", "vector"}, 3);
   return found ? Imath::V3d(found->numbers[0], found->numbers[1], found->numbers[2]) : fallback;
 }
 
-std::vector<double> Parameters::numbers(std::string_view name, SceneImporter& importer) const {
-  const Parameter* found = find(
-      name,
-      {"float", "integer", "point2", "vector2", "point3", "point", "vector3", "vector", "normal3", "normal"},
-      importer);
+std::vector<double> Parameters::numbers(std::string_view name) const {
+  const Parameter* found = find(name, {"float", "integer", "point2", "vector2", "point3", "point", "vector3",
+                                       "vector", "normal3", "normal"});
   return found ? found->numbers : std::vector<double>{};
 }
 
@@ -400,11 +372,11 @@ void Parameters::ignore(std::initializer_list<std::string_view> names) const {
     parameter.used = parameter.used || std::ranges::find(names, parameter.name) != names.end();
 }
 
-void Parameters::note_unused(const std::string& of, SceneImporter& importer) const {
+void Parameters::note_unused(const std::string& of) const {
   for (const Parameter& parameter : list_)
     if (!parameter.used)
-      importer.note(parameter.where,
-                    fmt::format("\"{}\" of {} is not supported: dropped", parameter.name, of));
+      importer_->note(parameter.where,
+                      fmt::format("\"{}\" of {} is not supported: dropped", parameter.name, of));
 }
 
 }  // namespace abbe::importers::pbrt

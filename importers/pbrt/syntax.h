@@ -16,9 +16,6 @@
 
 namespace abbe::importers::pbrt {
 
-// Errors go to `importer.diagnostics`. Functions throw Error{resource} if the memory limit of
-// `importer.inputs` is exceeded.
-
 /// A word, number, bracket or quoted string.
 struct Token {
   std::string text;  ///< Without quotes.
@@ -31,16 +28,14 @@ struct Token {
   [[nodiscard]] bool ends_import() const { return is(""); }
 };
 
-/// The tokens of a file and of the files it includes, without comments. Errors go to the importer's
-/// diagnostics. The importer must outlive it. Functions throw Error{resource} if the memory limit of its
-/// inputs is exceeded.
+/// The tokens of a file and of the files it includes, without comments. The importer must outlive it.
 class Tokens {
  public:
   /// Opens the file. Reports an error if it cannot be read; then `failed()` is true.
   Tokens(const std::filesystem::path& file, SceneImporter& importer);
 
-  /// Reads the next token. Nothing at the end of all files, and after an error; `failed()` distinguishes
-  /// them. Reports a quoted text without its closing quote.
+  /// Nothing at the end of all files, and after an error; `failed()` distinguishes them. Reports a quoted
+  /// text without its closing quote.
   [[nodiscard]] std::optional<Token> next();
   /// The token that `next` will return, without consuming it. The reference is valid until the next call.
   [[nodiscard]] const std::optional<Token>& peek();
@@ -82,7 +77,7 @@ bool read_numbers(std::size_t count, const Token& word, Tokens& tokens, std::vec
 /// LookAt, Translate, Scale, Rotate and ConcatTransform apply to points before the old `to_world`; Identity
 /// and Transform replace it. Angles are in degrees. Reports singular matrices, a zero axis or scale factor, a
 /// view direction along up, and the errors of `read_numbers`; then returns false and leaves `to_world`
-/// unchanged. Throws Error{internal} for any other directive.
+/// unchanged.
 bool apply_transform(const Token& word, Tokens& tokens, Imath::M44d& to_world, SceneImporter& importer);
 
 /// A parameter `"type name" [ values ]` of the file. At least one of the two lists of values is empty, unless
@@ -97,50 +92,52 @@ struct Parameter {
   OwnedReservation memory{};  ///< Memory of the parameter; each copy reserves as much.
 };
 
-/// The parameters of one directive.
+/// The parameters of one directive. Reading one reports its errors to the importer, which must outlive them.
 class Parameters {
  public:
-  /// Reads the parameters that follow, up to the first token that is not quoted. Empty if there is none.
-  /// Returns nothing, after reporting an error, for a parameter without type, name or values, an unknown
-  /// type, or values of a wrong type or count.
+  /// No parameters; without an importer there must be no notes and errors.
+  Parameters() = default;
+  explicit Parameters(SceneImporter& importer) : importer_(&importer) {}
+  /// Reads the parameters that follow, up to the first token that is not quoted. Returns nothing, after
+  /// reporting an error, for a parameter without type, name or values, an unknown type, or values of a wrong
+  /// type or count.
   [[nodiscard]] static std::optional<Parameters> read(Tokens& tokens, SceneImporter& importer);
   /// Adds the parameters of `defaults` whose names are absent.
   void add_defaults(const Parameters& defaults);
 
   /// The first parameter called `name`, which is marked as used; nullptr, without an error, if there is none.
   /// Its type must be one of `types`. Reports another type and returns nullptr.
-  [[nodiscard]] const Parameter* find(std::string_view name, std::initializer_list<const char*> types,
-                                      SceneImporter& importer) const;
+  [[nodiscard]] const Parameter* find(std::string_view name, std::initializer_list<const char*> types) const;
   /// True if there is a parameter called `name`, of any type. Does not mark it as used.
   [[nodiscard]] bool has(std::string_view name) const;
   // Parameters with a single value; `fallback` if absent. Several values and another type are reported, and
   // `fallback` is returned.
   /// A "float".
-  [[nodiscard]] double number(std::string_view name, double fallback, SceneImporter& importer) const;
-  /// An "integer", as a double that holds a whole number of any size.
-  [[nodiscard]] double integer(std::string_view name, double fallback, SceneImporter& importer) const;
-  [[nodiscard]] bool boolean(std::string_view name, bool fallback, SceneImporter& importer) const;
+  [[nodiscard]] double number(std::string_view name, double fallback) const;
+  /// An "integer", clamped to [-1e9, 1e9].
+  [[nodiscard]] int integer(std::string_view name, int fallback) const;
+  [[nodiscard]] bool boolean(std::string_view name, bool fallback) const;
   /// A "string", or the name of a "texture".
-  [[nodiscard]] std::string text(std::string_view name, const std::string& fallback,
-                                 SceneImporter& importer) const;
+  [[nodiscard]] std::string text(std::string_view name, const std::string& fallback) const;
   /// A "point3", "point", "vector3" or "vector" of three numbers.
-  [[nodiscard]] Imath::V3d point(std::string_view name, const Imath::V3d& fallback,
-                                 SceneImporter& importer) const;
+  [[nodiscard]] Imath::V3d point(std::string_view name, const Imath::V3d& fallback) const;
   /// All numbers of a parameter of numbers, points, vectors or normals; empty if absent. Reports another type
   /// and returns an empty list.
-  [[nodiscard]] std::vector<double> numbers(std::string_view name, SceneImporter& importer) const;
+  [[nodiscard]] std::vector<double> numbers(std::string_view name) const;
 
   /// Marks the parameters called `names`, which have no effect in Abbe, as used. Absent ones are no error.
   void ignore(std::initializer_list<std::string_view> names) const;
   /// Notes every parameter that is not marked as used as dropped. `of` names their directive in the notes.
-  void note_unused(const std::string& of, SceneImporter& importer) const;
+  void note_unused(const std::string& of) const;
   [[nodiscard]] const std::vector<Parameter>& all() const { return list_; }
+  [[nodiscard]] SceneImporter& importer() const { return *importer_; }
 
  private:
   [[nodiscard]] const Parameter* single(std::string_view name, std::initializer_list<const char*> types,
-                                        std::size_t count, SceneImporter& importer) const;
+                                        std::size_t count) const;
 
-  std::vector<Parameter> list_;
+  SceneImporter* importer_ = nullptr;
+  std::vector<Parameter> list_{};
 };
 
 /// A directive with its type, such as "diffuse", and its parameters.
@@ -148,6 +145,11 @@ struct Directive {
   std::string type;
   Parameters parameters{};
   SourcePosition where{};
+
+  /// Notes an approximated or dropped property of the directive.
+  void note(const std::string& text) const { parameters.importer().note(where, text); }
+  /// Reports an error at the directive; the result is nothing.
+  std::nullopt_t fail(std::string what) const { return parameters.importer().fail(where, std::move(what)); }
 };
 
 }  // namespace abbe::importers::pbrt

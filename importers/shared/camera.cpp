@@ -97,9 +97,12 @@ spec::ThinLens lens_of(const ImportedCamera& camera) {
 
 }  // namespace
 
-Imath::M44d world_mirror_of(const Imath::M44d& camera_to_world) {
+Imath::M44d world_mirror_of(const Imath::M44d& camera_to_world, const SourcePosition& where,
+                            SceneImporter& importer) {
   // Axes x right, y up, z forward are left-handed if the picture is not mirrored.
-  return mirrors(camera_to_world) ? Imath::M44d() : scaling({-1, 1, 1});
+  if (mirrors(camera_to_world)) return {};
+  importer.note(where, "the camera shows a mirror image of right-handed space: x is negated");
+  return scaling({-1, 1, 1});
 }
 
 void set_camera(const ImportedCamera& given, SceneImporter& importer) {

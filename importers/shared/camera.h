@@ -23,9 +23,10 @@ struct ImportedCamera {
 };
 
 /// Transform that every object-to-world matrix of the source scene is followed by. It is the reflection x ->
-/// -x if the source camera shows a mirror image of what Abbe's camera would show, otherwise the identity.
-/// `camera_to_world` has the axes of `ImportedCamera::to_world`.
-[[nodiscard]] Imath::M44d world_mirror_of(const Imath::M44d& camera_to_world);
+/// -x if the source camera shows a mirror image of what Abbe's camera would show, which is noted at `where`.
+/// Otherwise it is the identity. `camera_to_world` has the axes of `ImportedCamera::to_world`.
+[[nodiscard]] Imath::M44d world_mirror_of(const Imath::M44d& camera_to_world, const SourcePosition& where,
+                                          SceneImporter& importer);
 
 /// Sets the camera of `importer.scene` and the resolution of its sensor, which is added if absent.
 /// `camera.to_world` must already include the result of `world_mirror_of`. The camera is a thin lens if

@@ -46,10 +46,7 @@ std::optional<double> mean(const ImageChannel& channel, const Encoding& encoding
 std::optional<LinearRgb> mean_of(const Image& image, const Encoding& encoding, const SourcePosition& where,
                                  SceneImporter& importer) {
   constexpr std::array<std::string_view, 3> kNames{"R", "G", "B"};
-  const auto refuse = [&](const std::string& what) {
-    importer.diagnostics.error(where, what, ErrorCode::input);
-    return std::nullopt;
-  };
+  const auto refuse = [&](const std::string& what) { return importer.fail(where, what, ErrorCode::input); };
   LinearRgb colour{};
   for (std::size_t c = 0; c < 3; ++c) {
     const ImageChannel* channel = image.find(image.find("R") ? kNames.at(c) : "Y");
@@ -153,7 +150,7 @@ void replace_materials(const std::filesystem::path& map, SceneImporter& importer
   for (const auto& material : *chosen) {
     spec::Material* replaced = find_material(material.name, importer.scene);
     if (replaced == nullptr)
-      importer.diagnostics.error(material.where, unknown_name("material", material.name, names));
+      importer.fail(material.where, unknown_name("material", material.name, names));
     else
       *replaced = material.value;
   }
@@ -179,7 +176,7 @@ std::optional<LinearRgb> colour_of_rejected_image(const std::filesystem::path& f
     if (recorded_encoding(image).value_or(Encoding{}).gamma)
       importer.note(where, "an image is decoded as it declares: the source renderer takes it as sRGB");
   } catch (const Error& fault) {
-    importer.diagnostics.error(where, fault.what(), fault.code);
+    importer.fail(where, fault.what(), fault.code);
   }
   return std::nullopt;
 }
@@ -189,14 +186,10 @@ std::optional<LinearRgb> mean_colour(const std::filesystem::path& file, const So
   if (!importer.check_file(file, where)) return std::nullopt;
   try {
     const Image image = read_image(file, importer.inputs);
-    if (const auto fault = rec709_fault(image)) {
-      importer.diagnostics.error(where, *fault, ErrorCode::input);
-      return std::nullopt;
-    }
+    if (const auto fault = rec709_fault(image)) return importer.fail(where, *fault, ErrorCode::input);
     return mean_of(image, recorded_encoding(image).value_or(Encoding{}), where, importer);
   } catch (const Error& fault) {
-    importer.diagnostics.error(where, fault.what(), fault.code);
-    return std::nullopt;
+    return importer.fail(where, fault.what(), fault.code);
   }
 }
 

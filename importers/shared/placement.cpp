@@ -20,9 +20,6 @@ namespace {
 using Imath::M44d;
 using Imath::V3d;
 
-constexpr int kFacetsPerTurn = 64;
-constexpr int kFacetsPerHalfTurn = 32;
-
 V3d row(const M44d& m, int i) {
   return {m[i][0], m[i][1], m[i][2]};
 }
@@ -38,15 +35,6 @@ std::optional<double> uniform_scale(const M44d& m) {
   return std::sqrt(s2);
 }
 
-V3d moved_point(const V3d& p, const M44d& m) {
-  return p * m;
-}
-V3d moved_vector(const V3d& v, const M44d& m) {
-  V3d to;
-  m.multDirMatrix(v, to);
-  return to;
-}
-
 // The step of a transform that equals a matrix with this uniform scale.
 spec::Similarity similarity_of(const M44d& m, double scale) {
   spec::Similarity step;
@@ -58,26 +46,6 @@ spec::Similarity similarity_of(const M44d& m, double scale) {
   const V3d by = row(m, 3);
   if (by != V3d(0)) step.translate = by;
   return step;
-}
-
-// True if the matrix only translates and scales, so that longitudes and latitudes are preserved.
-bool preserves_axes(const M44d& m) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (i == j ? m[i][j] <= 0 : m[i][j] != 0) return false;
-  return true;
-}
-
-spec::InlineMesh triangles_of(const spec::Quad& quad) {
-  spec::InlineMesh mesh;
-  mesh.uv.emplace();
-  for (const auto& [u, v] : std::array<std::array<double, 2>, 4>{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}) {
-    const V3d at = quad.corner + quad.edge_u * u + quad.edge_v * v;
-    mesh.vertices.push_back({at.x, at.y, at.z});
-    mesh.uv->value.push_back({u, v});
-  }
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return mesh;
 }
 
 // Sets the material and the emission of a body.
@@ -110,19 +78,7 @@ spec::Mesh mesh_of(spec::Mesh::Wrapped mesh, const SourcePosition& where) {
   return result;
 }
 
-spec::InlineMesh moved(spec::InlineMesh mesh, const M44d& m, bool reversed) {
-  for (std::array<double, 3>& vertex : mesh.vertices) {
-    const V3d p = moved_point({vertex[0], vertex[1], vertex[2]}, m);
-    vertex = {p.x, p.y, p.z};
-  }
-  if (reversed)
-    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  return mesh;
-}
-
-/// Adds each kind of surface unchanged. Returns false if the matrix does not allow that. Textures are
-/// preserved on spheres whose axes are preserved and on quads that are not reversed, but not on discs and
-/// cylinders.
+/// Adds each kind of surface unchanged. Returns false if the matrix does not allow that.
 struct ShapeAppender {
   const ImportedShape& shape;
   bool textured;
@@ -130,41 +86,14 @@ struct ShapeAppender {
   SceneImporter& importer;
   const M44d& m = shape.to_world;
 
-  bool operator()(const spec::Sphere& sphere) const {
-    const auto scale = uniform_scale(m);
-    if (!scale || (textured && !preserves_axes(m))) return false;
-    if (shape.reversed && shape.emission)
+  template <typename Surface>
+  bool operator()(const Surface& surface) const {
+    const auto result = spec::moved(
+        surface, {m, uniform_scale(m), mirrors(m), shape.reversed, textured, shape.emission.has_value()});
+    if (!result) return false;
+    if (std::is_same_v<Surface, spec::Sphere> && shape.reversed && shape.emission)
       importer.note(shape.where, "a sphere emits outwards: in the source renderer it emits inwards");
-    shapes.push_back(shape_of(spec::Sphere{moved_point(sphere.center, m), sphere.radius * *scale}, shape));
-    return true;
-  }
-  bool operator()(const spec::Disc& disc) const {
-    const auto scale = uniform_scale(m);
-    if (!scale || textured) return false;
-    const V3d normal = moved_vector(disc.normal, m).normalized() * (shape.reversed ? -1.0 : 1.0);
-    shapes.push_back(shape_of(spec::Disc{moved_point(disc.center, m), normal, disc.radius * *scale}, shape));
-    return true;
-  }
-  bool operator()(const spec::Quad& quad) const {
-    V3d u = moved_vector(quad.edge_u, m);
-    V3d v = moved_vector(quad.edge_v, m);
-    if (mirrors(m) != shape.reversed) {
-      if (textured) return (*this)(triangles_of(quad));
-      std::swap(u, v);
-    }
-    shapes.push_back(shape_of(spec::Quad{moved_point(quad.corner, m), u, v, shape.where}, shape));
-    return true;
-  }
-  bool operator()(const spec::Cylinder& cylinder) const {
-    const auto scale = uniform_scale(m);
-    if (!scale || textured || (shape.reversed && shape.emission)) return false;
-    shapes.push_back(shape_of(spec::Cylinder{moved_point(cylinder.from, m), moved_point(cylinder.to, m),
-                                             cylinder.radius * *scale, cylinder.caps, shape.where},
-                              shape));
-    return true;
-  }
-  bool operator()(const spec::InlineMesh& mesh) const {
-    shapes.push_back(shape_of(mesh_of(moved(mesh, m, mirrors(m) != shape.reversed), shape.where), shape));
+    std::visit([this](const auto& as_moved) { append(as_moved); }, *result);
     return true;
   }
   bool operator()(const MeshFileSurface& mesh) const {
@@ -174,6 +103,15 @@ struct ShapeAppender {
     if (m != M44d()) steps.push_back(similarity_of(m, *scale));
     shapes.push_back(shape_of(mesh_of(importer.name_of(mesh.file), shape.where), shape, steps));
     return true;
+  }
+
+ private:
+  template <typename Surface>
+  void append(const Surface& surface) const {
+    if constexpr (std::is_same_v<Surface, spec::InlineMesh>)
+      shapes.push_back(shape_of(mesh_of(surface, shape.where), shape));
+    else
+      shapes.push_back(shape_of(surface, shape));
   }
 };
 
@@ -206,25 +144,13 @@ struct Triangulator {
   bool textured;
   SceneImporter& importer;
 
-  std::optional<spec::InlineMesh> operator()(const spec::Sphere& sphere) const {
-    const spec::InlineMesh unit = swept_sphere(sphere.radius, -sphere.radius, sphere.radius, 360);
-    return moved(unit, translation(sphere.center), false);
-  }
-  std::optional<spec::InlineMesh> operator()(const spec::Disc& disc) const {
-    M44d turn = Imath::rotationMatrix(V3d(0, 0, 1), disc.normal.normalized());
-    spec::InlineMesh mesh = swept({{disc.radius, 0}, {0, 0}}, 360);
-    if (shape.u_is_radial)
+  template <typename Surface>
+  std::optional<spec::InlineMesh> operator()(const Surface& surface) const {
+    spec::InlineMesh mesh = spec::triangles_of(surface);
+    if (std::is_same_v<Surface, spec::Disc> && shape.u_is_radial)
       for (auto& uv : mesh.uv->value) uv = {1 - uv[1], uv[0]};
-    return moved(std::move(mesh), turn * translation(disc.center), false);
+    return mesh;
   }
-  std::optional<spec::InlineMesh> operator()(const spec::Quad& quad) const { return triangles_of(quad); }
-  std::optional<spec::InlineMesh> operator()(const spec::Cylinder& cylinder) const {
-    const V3d axis = cylinder.to - cylinder.from;
-    const M44d turn = Imath::rotationMatrix(V3d(0, 0, 1), axis.normalized());
-    spec::InlineMesh mesh = swept({{cylinder.radius, 0}, {cylinder.radius, axis.length()}}, 360);
-    return moved(std::move(mesh), turn * translation(cylinder.from), false);
-  }
-  std::optional<spec::InlineMesh> operator()(const spec::InlineMesh& mesh) const { return mesh; }
   std::optional<spec::InlineMesh> operator()(const MeshFileSurface& mesh) const {
     const auto read = load_mesh_file(mesh.file, FileMaterials::ignored, shape.where, importer.diagnostics,
                                      FileCoordinates::wanted, importer.inputs);
@@ -303,6 +229,15 @@ M44d rotation(const V3d& axis, double deg) {
   return m;
 }
 
+std::optional<M44d> looking_at(const V3d& from, const V3d& target, const V3d& up) {
+  const V3d z = (target - from).normalized();
+  const V3d right = up.cross(z);
+  if (z.length2() == 0 || right.length2() < 1e-24) return std::nullopt;
+  const V3d x = right.normalized();
+  const V3d y = z.cross(x);
+  return M44d(x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, from.x, from.y, from.z, 1);
+}
+
 bool mirrors(const M44d& m) {
   return row(m, 0).cross(row(m, 1)).dot(row(m, 2)) < 0;
 }
@@ -361,44 +296,6 @@ void append_instance(const std::string& object, const M44d& to_world, const Sour
     for (int j = 0; j < 4; ++j) matrix.rows.value.push_back(to_world[j][i]);
   if (to_world != M44d()) instance.transform.value.push_back(std::move(matrix));
   importer.scene.shapes.push_back({std::nullopt, std::move(instance), where});
-}
-
-spec::InlineMesh swept(const std::vector<Imath::V2d>& line, double azimuth_deg) {
-  spec::InlineMesh mesh;
-  mesh.uv.emplace();
-  const int columns = std::max(3, static_cast<int>(std::ceil(kFacetsPerTurn * azimuth_deg / 360)));
-  const auto rows = static_cast<int>(line.size());
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i <= columns; ++i) {
-      const double fraction = static_cast<double>(i) / columns;
-      // A full turn ends at azimuth 0, so that the seam is closed.
-      const double phi =
-          i == columns && azimuth_deg == 360 ? 0 : fraction * azimuth_deg * std::numbers::pi / 180;
-      const Imath::V2d& at = line[static_cast<std::size_t>(j)];
-      mesh.vertices.push_back({at.x * std::cos(phi), at.x * std::sin(phi), at.y});
-      mesh.uv->value.push_back({fraction, static_cast<double>(j) / (rows - 1)});
-    }
-  for (int j = 0; j + 1 < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      const auto a = static_cast<std::uint32_t>(j * (columns + 1) + i);
-      const std::uint32_t b = a + static_cast<std::uint32_t>(columns) + 1;
-      // At the axis one of the two triangles is degenerate.
-      if (line[static_cast<std::size_t>(j)].x > 0) mesh.triangles.push_back({a, a + 1, b + 1});
-      if (line[static_cast<std::size_t>(j) + 1].x > 0) mesh.triangles.push_back({a, b + 1, b});
-    }
-  return mesh;
-}
-
-spec::InlineMesh swept_sphere(double radius, double low, double high, double azimuth_deg) {
-  const double from = std::asin(std::clamp(low / radius, -1.0, 1.0));
-  const double to = std::asin(std::clamp(high / radius, -1.0, 1.0));
-  std::vector<Imath::V2d> line;
-  for (int j = 0; j <= kFacetsPerHalfTurn; ++j) {
-    const double latitude = from + (to - from) * j / kFacetsPerHalfTurn;
-    const bool pole = std::abs(std::abs(latitude) - std::numbers::pi / 2) < 1e-9;
-    line.emplace_back(pole ? 0 : radius * std::cos(latitude), radius * std::sin(latitude));
-  }
-  return swept(line, azimuth_deg);
 }
 
 }  // namespace abbe::importers

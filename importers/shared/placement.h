@@ -12,9 +12,6 @@
 #include "scene/shapes/shape.h"
 
 // Matrices apply to row vectors, as everywhere in Abbe: p' = p M, with the translation in the last row.
-//
-// Errors go to `importer.diagnostics`; approximations and losses go to `SceneImporter::note`. Functions throw
-// Error{resource} if the memory limit of `importer.inputs` is exceeded.
 namespace abbe::importers {
 
 /// The matrix whose rows, written for column vectors, are 16 numbers. Missing numbers are those of the
@@ -25,6 +22,10 @@ namespace abbe::importers {
 [[nodiscard]] Imath::M44d translation(const Imath::V3d& by);
 /// A right-handed rotation by `deg` degrees about an axis through the origin, of any length except 0.
 [[nodiscard]] Imath::M44d rotation(const Imath::V3d& axis, double deg);
+/// Camera-to-world matrix of a view from one point to another, with z along the view, x along `up` x z and y
+/// = z x x. Nothing if the view direction is zero or parallel to `up`.
+[[nodiscard]] std::optional<Imath::M44d> looking_at(const Imath::V3d& from, const Imath::V3d& target,
+                                                    const Imath::V3d& up);
 /// True if the matrix changes handedness: the determinant of its linear part is negative.
 [[nodiscard]] bool mirrors(const Imath::M44d& matrix);
 
@@ -35,8 +36,7 @@ struct MeshFileSurface {
 /// A shape of the source scene.
 struct ImportedShape {
   /// The surface in its own coordinates, before `to_world`.
-  std::variant<spec::Sphere, spec::Disc, spec::Quad, spec::Cylinder, spec::InlineMesh, MeshFileSurface>
-      surface;
+  Joined<spec::MovableSurface, std::variant<MeshFileSurface>>::type surface;
   Imath::M44d to_world;   ///< Matrix to the written scene, or to the object that contains it.
   bool reversed = false;  ///< True if its front is the back of `surface`.
   /// Texture coordinates of a disc that is replaced by triangles. True: u is the distance from the center as
@@ -49,9 +49,9 @@ struct ImportedShape {
   SourcePosition where;
 };
 
-/// Inverts `shape.reversed` if the vertex normals of `mesh` are behind its triangles for most of their area:
-/// vertex normals decide which side emits. `mesh` holds the triangles of `shape`. Notes normals on both
-/// sides. Does nothing for a shape that does not emit or is two-sided, and for a mesh without vertex normals.
+/// Inverts `shape.reversed` if the vertex normals of its triangles `mesh` are behind them for most of their
+/// area: vertex normals decide which side emits. Notes normals on both sides. Does nothing without such
+/// normals, and for a shape that does not emit or is two-sided.
 void orient_by_normals(const Mesh& mesh, ImportedShape& shape, SceneImporter& importer);
 
 /// Container of a shape: the scene, or an object, which may not contain instances.
@@ -72,13 +72,7 @@ void append_shape(ImportedShape shape, ShapeOwner owner, std::vector<spec::Shape
 void append_instance(const std::string& object, const Imath::M44d& to_world, const SourcePosition& where,
                      SceneImporter& importer);
 
-/// The surface of revolution about z of a polyline of two or more points (r, z), r >= 0. The azimuth runs
-/// from 0 at +x over +y to `azimuth_deg`, in (0, 360], in facets of at most 5.625 degrees. Its front is along
-/// (increasing azimuth) x (along the line). Texture coordinates run from 0 to 1: u with the azimuth, v from
-/// point to point.
-[[nodiscard]] spec::InlineMesh swept(const std::vector<Imath::V2d>& line, double azimuth_deg);
-/// The part of a sphere around the origin with z between `low` and `high`, as triangles. The heights are
-/// clamped to [-radius, radius]. The azimuth is that of `swept`. The front is outside; v increases with z.
-[[nodiscard]] spec::InlineMesh swept_sphere(double radius, double low, double high, double azimuth_deg);
+using spec::swept;
+using spec::swept_sphere;
 
 }  // namespace abbe::importers

@@ -18,6 +18,43 @@ namespace abbe::importers {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// `name`, or "`name` 2", "`name` 3" and so on if a material has that name.
+std::string unused_material_name(const std::string& name, const spec::Scene& scene) {
+  bool taken = false;
+  std::vector<bool> numbers(scene.materials.size() + 3, false);  // Used numbers; at least one is unused.
+  for (const auto& material : scene.materials) {
+    const std::string_view other = material.name;
+    if (!other.starts_with(name)) continue;
+    const std::string_view suffix = other.substr(name.size());
+    taken = taken || suffix.empty();
+    std::size_t number = 0;
+    if (suffix.size() < 2 || suffix[0] != ' ' || suffix[1] == '0') continue;
+    const auto read = std::from_chars(suffix.data() + 1, suffix.data() + suffix.size(), number);
+    if (read.ec == std::errc() && read.ptr == suffix.data() + suffix.size() && number < numbers.size())
+      numbers[number] = true;
+  }
+  if (!taken) return name;
+  return fmt::format("{} {}", name, std::find(numbers.begin() + 2, numbers.end(), false) - numbers.begin());
+}
+
+// Mean of the cosine over the falloff. The intensity is I w(a), with w = 1 up to a0 and 0 from a1 on. Its
+// flux is
+//
+//   2 pi I int w sin a da = 2 pi I (1 - c),  c = int cos a (-dw).
+//
+// A hard edge at the cosine c has that flux.
+double mean_cosine(double a0, double a1, Falloff falloff) {
+  const double c0 = std::cos(a0);
+  const double c1 = std::cos(a1);
+  if (falloff == Falloff::linear_angle) return (std::sin(a1) - std::sin(a0)) / (a1 - a0);
+  if (falloff == Falloff::squared_cosine) return (2 * c0 + c1) / 3;
+  return (c0 + c1) / 2;
+}
+
+}  // namespace
+
 void SceneImporter::note(const SourcePosition& where, const std::string& text) {
   const auto known = std::ranges::find(notes, text, &Note::text);
   if (known != notes.end()) {
@@ -31,6 +68,16 @@ void SceneImporter::note(const SourcePosition& where, const std::string& text) {
 bool SceneImporter::refuse(const SourcePosition& where, std::string what) {
   diagnostics.error(where, std::move(what));
   return false;
+}
+
+std::nullopt_t SceneImporter::fail(const SourcePosition& where, std::string what, ErrorCode code) {
+  diagnostics.error(where, std::move(what), code);
+  return std::nullopt;
+}
+
+bool SceneImporter::is_known(std::string_view what, const std::string& name,
+                             const std::vector<std::string>& names, const SourcePosition& where) {
+  return std::ranges::find(names, name) != names.end() || refuse(where, unknown_name(what, name, names));
 }
 
 void SceneImporter::limit_depth(int depth, const SourcePosition& where) {
@@ -91,48 +138,12 @@ bool SceneImporter::count_include(const SourcePosition& where) {
   return false;
 }
 
-std::string SceneImporter::unused_material_name(const std::string& name) const {
-  bool taken = false;
-  std::vector<bool> numbers(scene.materials.size() + 3, false);  // Used numbers; at least one is unused.
-  for (const auto& material : scene.materials) {
-    const std::string_view other = material.name;
-    if (!other.starts_with(name)) continue;
-    const std::string_view suffix = other.substr(name.size());
-    taken = taken || suffix.empty();
-    std::size_t number = 0;
-    if (suffix.size() < 2 || suffix[0] != ' ' || suffix[1] == '0') continue;
-    const auto read = std::from_chars(suffix.data() + 1, suffix.data() + suffix.size(), number);
-    if (read.ec == std::errc() && read.ptr == suffix.data() + suffix.size() && number < numbers.size())
-      numbers[number] = true;
-  }
-  if (!taken) return name;
-  return fmt::format("{} {}", name, std::find(numbers.begin() + 2, numbers.end(), false) - numbers.begin());
-}
-
 std::string SceneImporter::add_material(const std::string& name, spec::Material material) {
-  std::string free = unused_material_name(name);
+  std::string free = unused_material_name(name, scene);
   reserve_values(kValuesPerItem, free.size());
   scene.materials.push_back({free, std::move(material), {}});
   return free;
 }
-
-namespace {
-
-// Mean of the cosine over the falloff. The intensity is I w(a), with w = 1 up to a0 and 0 from a1 on. Its
-// flux is
-//
-//   2 pi I int w sin a da = 2 pi I (1 - c),  c = int cos a (-dw).
-//
-// A hard edge at the cosine c has that flux.
-double mean_cosine(double a0, double a1, Falloff falloff) {
-  const double c0 = std::cos(a0);
-  const double c1 = std::cos(a1);
-  if (falloff == Falloff::linear_angle) return (std::sin(a1) - std::sin(a0)) / (a1 - a0);
-  if (falloff == Falloff::squared_cosine) return (2 * c0 + c1) / 3;
-  return (c0 + c1) / 2;
-}
-
-}  // namespace
 
 double hard_cone(double inner_deg, double outer_deg, Falloff falloff, const SourcePosition& where,
                  SceneImporter& importer) {

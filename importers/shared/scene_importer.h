@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,10 +28,9 @@ struct Note {
 /// State of an import: the scene to be written and its notes. One instance per import and thread.
 struct SceneImporter {
   Diagnostics& diagnostics;
-  Inputs* inputs;  ///< Account of the command's files and memory, or nullptr.
-  std::filesystem::path
-      folder;        ///< Folder of the scene to be written; file names in it are relative to this folder.
-  std::string file;  ///< Name of the source scene, for errors about memory.
+  Inputs* inputs;                ///< Account of the command's files and memory, or nullptr.
+  std::filesystem::path folder;  ///< Folder of the scene to be written; its file names are relative to it.
+  std::string file;              ///< Name of the source scene, for errors about memory.
   spec::Scene scene{};
   std::vector<Note> notes{};
   std::size_t included = 0;          ///< Number of files included so far.
@@ -39,8 +40,13 @@ struct SceneImporter {
 
   /// Notes an approximated or dropped property. Equal texts are stored once and counted.
   void note(const SourcePosition& where, const std::string& text);
-  /// Reports an error with ErrorCode::scene at `where` and returns false.
+  /// Reports an error at `where`; `refuse` returns false, `fail` nothing.
   bool refuse(const SourcePosition& where, std::string what);
+  std::nullopt_t fail(const SourcePosition& where, std::string what, ErrorCode code = ErrorCode::scene);
+  /// True if `name` is one of `names`. Otherwise reports it at `where` with the nearest one; `what` is the
+  /// noun for them.
+  bool is_known(std::string_view what, const std::string& name, const std::vector<std::string>& names,
+                const SourcePosition& where);
   /// Sets the maximum number of scattering events of a path. A value below 1 becomes 1, which is noted.
   /// `scene.render` must be set.
   void limit_depth(int depth, const SourcePosition& where);
@@ -48,8 +54,7 @@ struct SceneImporter {
   void note_medium(const SourcePosition& where);
   /// Reserves memory in `inputs` until the command ends. Throws Error{resource} if it exceeds the limit.
   void reserve_memory(std::size_t bytes) const;
-  /// Reads a UTF-8 text file and adds it to `inputs`; its memory is reserved first. Reports an unreadable
-  /// file and returns nullptr.
+  /// Reads a UTF-8 text file and adds it to `inputs`. Reports an unreadable file and returns nullptr.
   [[nodiscard]] std::shared_ptr<const SourceText> read(const std::filesystem::path& file) const;
   /// Reserves memory for `count` JSON values and `bytes_of_texts` bytes of texts of the scene to be written.
   void reserve_values(std::size_t count, std::size_t bytes_of_texts = 0);
@@ -63,9 +68,7 @@ struct SceneImporter {
   /// Counts a file that is included at `where`. False, after an error with ErrorCode::resource, from the
   /// 10001st file on: small files that include each other twice would never end.
   bool count_include(const SourcePosition& where);
-  /// `name`, or "`name` 2", "`name` 3" and so on if a material has that name.
-  [[nodiscard]] std::string unused_material_name(const std::string& name) const;
-  /// Adds a material under an unused name and returns that name.
+  /// Adds a material and returns its name: `name`, or "`name` 2", "`name` 3" and so on if that is taken.
   std::string add_material(const std::string& name, spec::Material material);
 };
 
@@ -101,17 +104,6 @@ class OwnedReservation {
   std::size_t bytes_ = 0;
 };
 
-/// Adds a light to `importer.scene.lights`. `light_spec` is an alternative of `spec::Light::kind`. Throws
-/// Error{resource} if the memory limit of `importer.inputs` is exceeded.
-template <typename LightSpec>
-void append_light(LightSpec light_spec, const SourcePosition& where, SceneImporter& importer) {
-  importer.reserve_values(kValuesPerItem);
-  spec::Light light;
-  light.kind = std::move(light_spec);
-  light.where = where;
-  importer.scene.lights.push_back(std::move(light));
-}
-
 /// Falloff of a spot's intensity from 1 at an inner angle to 0 at an outer angle from its axis. At the angle
 /// a between them, let t = (cos a - cos outer)/(cos inner - cos outer). The intensity is
 /// - smooth_cosine: 3t^2 - 2t^3;
@@ -125,15 +117,11 @@ enum class Falloff { smooth_cosine, squared_cosine, linear_angle };
 [[nodiscard]] double hard_cone(double inner_deg, double outer_deg, Falloff falloff,
                                const SourcePosition& where, SceneImporter& importer);
 
-// Readers of scene files, one per format. Each fills `importer.scene`. It reports malformed, unknown and
-// missing data to `importer.diagnostics`, and notes what is approximated or dropped. It returns false if the
-// diagnostics have an error.
+// Readers of scene files, one per format. Each fills `importer.scene`, and returns false if the diagnostics
+// have an error.
 
-/// Reads a glTF 2.0 or GLB file, in metres:
-/// - the meshes of the default scene, or of the first scene, as one shape per material;
-/// - the first perspective camera or, without one, the first camera;
-/// - a camera that sees all meshes along -z if the file has none;
-/// - the lights of KHR_lights_punctual.
+/// Reads the default or first scene of a glTF 2.0 or GLB file, in metres: one shape per material, one camera,
+/// and the lights of KHR_lights_punctual. Adds a camera that sees all meshes along -z if there is none.
 bool read_gltf_scene(const std::filesystem::path& file, SceneImporter& importer);
 /// Reads a scene file of Mitsuba 3; its unit of length counts as a metre.
 bool read_mitsuba(const std::filesystem::path& file, SceneImporter& importer);

@@ -140,17 +140,24 @@ std::vector<std::string> words_of(std::string line) {
 
 }  // namespace
 
-bool check_samples(const Samples& samples, const SourcePosition& where, SceneImporter& importer) {
-  if (samples.nm.size() < 2) {
-    importer.diagnostics.error(
-        where, fmt::format("a spectrum needs two samples or more (got {})", samples.nm.size()));
-    return false;
-  }
+std::optional<Samples> checked(Samples samples, const SourcePosition& where, SceneImporter& importer) {
+  if (samples.nm.size() < 2)
+    return importer.fail(where,
+                         fmt::format("a spectrum needs two samples or more (got {})", samples.nm.size()));
   const auto step = std::ranges::adjacent_find(samples.nm, std::greater_equal<>());
-  if (step == samples.nm.end()) return true;
-  importer.diagnostics.error(
-      where, fmt::format("wavelengths must ascend (got {} nm after {} nm)", *(step + 1), *step));
-  return false;
+  if (step == samples.nm.end()) return samples;
+  return importer.fail(where,
+                       fmt::format("wavelengths must ascend (got {} nm after {} nm)", *(step + 1), *step));
+}
+
+std::optional<Samples> samples_of_pairs(const std::vector<double>& pairs, const SourcePosition& where,
+                                        SceneImporter& importer) {
+  Samples samples{{}, {}, Outside::zero};
+  for (std::size_t i = 0; i < pairs.size(); i += 2) {
+    samples.nm.push_back(pairs[i]);
+    samples.values.push_back(pairs[i + 1]);
+  }
+  return checked(std::move(samples), where, importer);
 }
 
 Samples samples_of(const LinearRgb& rgb) {
@@ -303,17 +310,17 @@ ImportedLightSpectrum light_spectrum_of(const Spectrum& given, double y, const S
   return light;
 }
 
-ImportedLightSpectrum absolute_light_spectrum_of(const Spectrum& given, double factor, double y,
-                                                 const SourcePosition& where, SceneImporter& importer) {
+ImportedLightSpectrum absolute_light_spectrum_of(const Spectrum& given, double y, const SourcePosition& where,
+                                                 SceneImporter& importer) {
   if (const auto* value = std::get_if<double>(&given))
     return coloured_light({*value, *value, *value}, y, where, importer);
   if (std::holds_alternative<LinearRgb>(given)) return light_spectrum_of(given, y, where, importer);
   ImportedLightSpectrum light;
   const auto* body = std::get_if<Temperature>(&given);
-  if (body != nullptr && body->factor * factor == 1)
+  if (body != nullptr && body->factor == 1)
     light.emission.spectrum = spec::Blackbody{{body->K}};
   else
-    light.emission.spectrum = spectrum(curve_of(scaled(given, factor), where, importer));
+    light.emission.spectrum = spectrum(curve_of(given, where, importer));
   return light;
 }
 
@@ -322,23 +329,19 @@ std::optional<Samples> read_spectrum_file(const std::filesystem::path& file, con
   if (!importer.check_file(file, where)) return std::nullopt;
   const auto source = importer.read(file);
   if (!source) return std::nullopt;
-  Samples samples;
+  std::vector<double> pairs;
   for (std::size_t from = 0; from < source->text.size();) {
     const std::size_t end = std::min(source->text.find('\n', from), source->text.size());
     const std::vector<std::string> words = words_of(source->text.substr(from, end - from));
     const auto nm = words.size() == 2 ? parse_number(words[0]) : std::nullopt;
     const auto value = nm ? parse_number(words[1]) : std::nullopt;
-    if (value) {
-      samples.nm.push_back(*nm);
-      samples.values.push_back(*value);
-    } else if (!words.empty()) {
-      importer.diagnostics.error({source, from, ""}, "expected a wavelength and a value", ErrorCode::input);
-      return std::nullopt;
-    }
+    if (value)
+      pairs.insert(pairs.end(), {*nm, *value});
+    else if (!words.empty())
+      return importer.fail({source, from, ""}, "expected a wavelength and a value", ErrorCode::input);
     from = end + 1;
   }
-  if (!check_samples(samples, {source, 0, ""}, importer)) return std::nullopt;
-  return samples;
+  return samples_of_pairs(pairs, {source, 0, ""}, importer);
 }
 
 }  // namespace abbe::importers

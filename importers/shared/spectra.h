@@ -12,12 +12,9 @@
 
 namespace abbe::importers {
 
-// Errors go to `importer.diagnostics`; approximations and losses go to `SceneImporter::note`. Functions throw
-// Error{resource} if the memory limit of `importer.inputs` is exceeded.
-
 /// Samples of a spectrum, linearly interpolated.
 struct Samples {
-  std::vector<double> nm;            ///< Wavelengths, strictly ascending, two or more; see `check_samples`.
+  std::vector<double> nm;            ///< Wavelengths, strictly ascending, two or more; see `checked`.
   std::vector<double> values;        ///< One value per wavelength, in the unit of the use.
   Outside outside = Outside::clamp;  ///< Values outside the wavelengths: those of the ends, or 0.
 };
@@ -37,22 +34,25 @@ using Spectrum = std::variant<double, LinearRgb, Samples, Temperature, ShippedTa
 /// The value of a property that may vary over a surface: a spectrum, or an image.
 using TextureValue = std::variant<Spectrum, spec::Texture>;
 
-/// True if there are two samples or more and wavelengths ascend strictly; otherwise reports an error at
-/// `where`.
-[[nodiscard]] bool check_samples(const Samples& samples, const SourcePosition& where,
-                                 SceneImporter& importer);
+/// The samples. Nothing, after an error at `where`, if there are fewer than two, or wavelengths do not ascend
+/// strictly.
+[[nodiscard]] std::optional<Samples> checked(Samples samples, const SourcePosition& where,
+                                             SceneImporter& importer);
+/// Samples from an even number of numbers, wavelength [nm] and value in turn, that are 0 outside. Checks them
+/// as `checked`.
+[[nodiscard]] std::optional<Samples> samples_of_pairs(const std::vector<double>& pairs,
+                                                      const SourcePosition& where, SceneImporter& importer);
 
-/// The spectrum of a linear Rec.709 colour as a mixture of `rgb_basis`, every 5 nm from 380 to 780 nm. Values
-/// are rounded to 1e-6. White (1, 1, 1) is 1 at all wavelengths.
+/// The spectrum of a linear Rec.709 colour as a mixture of `rgb_basis`, every 5 nm from 380 to 780 nm and
+/// rounded to 1e-6.
 [[nodiscard]] Samples samples_of(const LinearRgb& rgb);
-/// Converts a spectrum to a curve with the same values. A grey colour becomes a constant; any other colour
-/// becomes a smooth spectrum with that colour under D65 (`rgb_spectrum`), which is noted. A temperature
-/// becomes Planck's spectral radiance [W/(m2 sr nm)] times its factor. Reports no errors.
+/// The curve of a spectrum. A grey colour becomes a constant; any other colour a smooth spectrum with that
+/// colour under D65 (`rgb_spectrum`), which is noted. A temperature becomes Planck's spectral radiance [W/(m2
+/// sr nm)].
 [[nodiscard]] spec::Curve curve_of(const Spectrum& spectrum, const SourcePosition& where,
                                    SceneImporter& importer);
 /// The texture of a colour image. If `linear`, integer codes are taken as linear instead of sRGB: the
-/// channels then weight the spectra of `rgb_basis`, which is noted. `linear` has no effect on files of
-/// floats, which are linear anyway.
+/// channels then weight the spectra of `rgb_basis`, which is noted.
 [[nodiscard]] spec::Texture colours_of(spec::TextureFile file, bool linear, const SourcePosition& where,
                                        SceneImporter& importer);
 /// Applies a function to the samples. Values interpolated every 5 nm are added before, since linear
@@ -68,7 +68,6 @@ using TextureValue = std::variant<Spectrum, spec::Texture>;
                                                          const std::function<double(double)>& function,
                                                          const SourcePosition& where,
                                                          SceneImporter& importer);
-/// The spectrum times a factor.
 [[nodiscard]] Spectrum scaled(Spectrum spectrum, double factor);
 /// A single number for a spectrum: the value at 589.3 nm for samples, the mean of the components for colours.
 /// Nothing, without an error, for a temperature or a shipped table.
@@ -92,34 +91,40 @@ struct ImportedLightSpectrum {
 /// radiance, intensity or irradiance times the CIE 1931 y equals `y`, in W/(m2 sr), W/sr or W/m2.
 /// - A colour is D65 times its smooth spectrum. `y` belongs to (1, 1, 1); other colours give their luminance
 ///   relative to it.
-/// - A number is the equal-energy spectrum E, whatever its value.
-/// - The factor of a temperature or a shipped table has no effect.
+/// - A number is the equal-energy spectrum E, whatever its value; factors have no effect either.
 /// Throws Error{input} if the table of D65 cannot be read, for a colour that is not grey.
 [[nodiscard]] ImportedLightSpectrum light_spectrum_of(const Spectrum& spectrum, double y,
                                                       const SourcePosition& where, SceneImporter& importer);
-/// An emission spectrum whose samples, temperatures and shipped tables are absolute, in W and nm, times
-/// `factor`; `photometric` is then absent. A number c counts as the colour (c, c, c). Colours are as in
-/// `light_spectrum_of`: (1, 1, 1) gives `y`, and `factor` has no effect.
-[[nodiscard]] ImportedLightSpectrum absolute_light_spectrum_of(const Spectrum& spectrum, double factor,
-                                                               double y, const SourcePosition& where,
+/// An emission spectrum whose samples, temperatures and shipped tables are absolute, in W and nm;
+/// `photometric` is then absent. A number c counts as the colour (c, c, c). Colours are as in
+/// `light_spectrum_of`.
+[[nodiscard]] ImportedLightSpectrum absolute_light_spectrum_of(const Spectrum& spectrum, double y,
+                                                               const SourcePosition& where,
                                                                SceneImporter& importer);
 
-/// The emission of one type of light. Its scale is `light.photometric` as `quantity`, or none if that is
-/// absent.
-template <typename Emission, spec::Quantity quantity>
-[[nodiscard]] Emission emission_of(const ImportedLightSpectrum& light) {
-  Emission emission;
-  static_cast<spec::Emission&>(emission) = light.emission;
+/// The emission of a light. Its scale is `light.photometric` as `quantity`, or none if that is absent.
+template <spec::Quantity quantity>
+[[nodiscard]] spec::Emission emission_of(const ImportedLightSpectrum& light) {
+  spec::Emission emission = light.emission;
   if (light.photometric) emission.scale = spec::Amount<quantity>{{*light.photometric}};
   return emission;
 }
+/// Adds a light of the type `Light`, an alternative of `spec::Light::kind`, with the emission
+/// `emission_of<quantity>`.
+template <typename Light, spec::Quantity quantity>
+void append_light(decltype(Light::source) source, const ImportedLightSpectrum& emitted,
+                  const SourcePosition& where, SceneImporter& importer) {
+  using Emission = typename decltype(std::optional(Light::emission))::value_type;
+  importer.reserve_values(kValuesPerItem);
+  spec::Light light;
+  light.kind = Light{std::move(source), Emission{emission_of<quantity>(emitted)}};
+  light.where = where;
+  importer.scene.lights.push_back(std::move(light));
+}
 
 /// Reads a text file with a wavelength [nm] and a value per line, separated by blanks, tabs or a comma; `#`
-/// begins a comment. The samples clamp at their ends. Reports to `importer.diagnostics`:
-/// - a missing or unreadable file, at `where`;
-/// - malformed lines, fewer than two samples and wavelengths that do not ascend, at their positions in the
-/// file. Returns nothing after an error. Throws Error{resource} if the memory limit of `importer.inputs` is
-/// exceeded.
+/// begins a comment. The samples are 0 outside. Nothing after an error: a missing or unreadable file, at
+/// `where`, a malformed line, and the errors of `checked`.
 [[nodiscard]] std::optional<Samples> read_spectrum_file(const std::filesystem::path& file,
                                                         const SourcePosition& where, SceneImporter& importer);
 

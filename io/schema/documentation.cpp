@@ -367,7 +367,8 @@ std::string entry_at(const Fields& root, const std::string& path) {
 
 std::string Key::meaning() const {
   std::string before;
-  if (!owners.empty()) before += fmt::format("For {}: ", fmt::join(owners, ", "));
+  if (!owners.empty()) before += fmt::format("In {}: ", fmt::join(owners, ", "));
+  std::replace(before.begin(), before.end(), '_', ' ');  // names of objects, as words
   if (!sibling_keys.empty()) before += fmt::format("With `{}`: ", fmt::join(sibling_keys, "`, `"));
   return before + text;
 }

@@ -130,10 +130,10 @@ MemberFunctions access() {
 // Declarative field tables of user files. A plain struct has its defaults as member initialisers, and a
 // function returns its table:
 //
-//   Fields fields(Tag<Disc>) {
-//     return describe("disc", "A flat disc.",
-//                     {field("center", &Disc::center, point(), "Its center."),
-//                      field("radius", &Disc::radius, kLength, "Its radius.")});
+//   Fields fields(Tag<Circle>) {
+//     return describe("circle", "A flat circle.",
+//                     {field("center", &Circle::center, point(), "Its center."),
+//                      field("radius", &Circle::radius, kLength, "Its radius.")});
 //   }
 //
 // `read`, `write`, `json_schema`, the guide and help use these tables. The value type is omitted if the
@@ -144,7 +144,7 @@ MemberFunctions access() {
 // type differs from that of its member; such an error is a bug of the table.
 namespace abbe::schema {
 
-/// Selects the table of a type: `fields(Tag<Disc>{})`.
+/// Selects the table of a type: `fields(Tag<Circle>{})`.
 template <typename T>
 struct Tag {};
 

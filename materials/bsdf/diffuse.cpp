@@ -1,13 +1,7 @@
 #include "materials/bsdf/diffuse.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <vector>
 
-#include "materials/bsdf/event.h"
-#include "materials/bsdf/warp.h"
-#include "materials/index/relative_index.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/mueller.h"
 
@@ -167,10 +161,7 @@ OrenNayarBsdf OrenNayarMaterial::bsdf(const SurfaceLookup& at) const {
 }
 
 Curve inner_reflectance(const RefractiveIndex& index) {
-  std::vector<Knot> knots;
-  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm)
-    knots.push_back({static_cast<double>(nm), diffuse_reflectance_inside(index.n(nm))});
-  return Curve(std::move(knots));
+  return each_nm([&](double nm) { return diffuse_reflectance_inside(index.n(nm)); });
 }
 
 CoatedDiffuseBsdf CoatedDiffuseMaterial::bsdf(const SurfaceLookup& at) const {

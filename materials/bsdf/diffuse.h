@@ -15,9 +15,6 @@ namespace abbe {
 
 /// Lambertian reflection on the side of `wo`. Both sides reflect alike.
 struct DiffuseBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = false;
-
   SampledSpectrum reflectance;  ///< Directional-hemispherical reflectance, in [0, 1].
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
@@ -26,8 +23,7 @@ struct DiffuseBsdf {
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
 };
 
-// These functions are inline: Lambertian surfaces are so frequent that calls would cost more than the
-// scattering.
+// Inline, because Lambertian surfaces are so frequent that calls would cost more than the scattering.
 
 // f = reflectance/pi, sampled with pdf cos/pi, so the weight is the reflectance for every direction.
 
@@ -53,9 +49,6 @@ inline SampledSpectrum DiffuseBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& 
 /// loses energy, so a lobe for light scattered repeatedly among the facets is added. A white surface reflects
 /// all light. [Portsmouth2025]
 struct OrenNayarBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = false;
-
   SampledSpectrum reflectance;  ///< Reflectance of the facets, in [0, 1].
   float roughness;              ///< In [0, 1]; 0 is Lambertian.
 
@@ -79,9 +72,6 @@ struct OrenNayarBsdf {
 /// reflectance of the ground, and r the internal diffuse reflectance of the coat. The model conserves energy
 /// for rho = 1. [Saunderson1942]
 struct CoatedDiffuseBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum n;       ///< Index of the coat relative to the outside, 1 or more.
   SampledSpectrum ground;  ///< rho/(n^2 (1 - rho r)).
   bool dispersive;         ///< True if n may differ between wavelengths.
@@ -96,16 +86,13 @@ struct CoatedDiffuseBsdf {
                                                      std::optional<int> lane) const;
 };
 
-/// The model at one packet. `n` is the index of the coat relative to the outside, `rho` the reflectance of
-/// the ground, in [0, 1]. `inner` is the internal diffuse reflectance of the coat
-/// (`diffuse_reflectance_inside`); rho * inner must be below 1.
+/// The model with these n and rho; `inner` is r (`diffuse_reflectance_inside`). rho * inner must be below 1.
 [[nodiscard]] inline CoatedDiffuseBsdf coated_diffuse(const SampledSpectrum& n, const SampledSpectrum& rho,
                                                       const SampledSpectrum& inner, bool dispersive) {
   return {n, rho / (n * n * (SampledSpectrum(1) - rho * inner)), dispersive};
 }
 
-/// A Lambertian surface; `reflectance` is its hemispherical reflectance. `SurfaceModel` describes the member
-/// functions.
+/// A Lambertian surface; `reflectance` is its hemispherical reflectance.
 struct DiffuseMaterial : OpaqueSurface {
   [[nodiscard]] DiffuseBsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
@@ -123,12 +110,11 @@ struct OrenNayarMaterial : OpaqueSurface {
 /// air, every 1 nm from 300 to 1100 nm.
 [[nodiscard]] Curve inner_reflectance(const RefractiveIndex& index);
 
-/// A Lambertian ground under a smooth transparent coat, such as glazed or varnished paint. `SurfaceModel`
-/// describes the member functions.
-struct CoatedDiffuseMaterial {
+/// A Lambertian ground under a smooth transparent coat, such as glazed or varnished paint; `reflectance` is
+/// that of the uncoated ground.
+struct CoatedDiffuseMaterial : OpaqueSurface {
   std::string index_name;
-  RefractiveIndex index;        ///< Index of the coat: n in [1, 100), without k.
-  SpectralTexture reflectance;  ///< Reflectance of the uncoated ground, in [0, 1].
+  RefractiveIndex index;  ///< Index of the coat: n in [1, 100), without k.
   /// Internal diffuse reflectance in air; other media have their own.
   Curve inner = inner_reflectance(index);
 
@@ -136,11 +122,8 @@ struct CoatedDiffuseMaterial {
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true, .spread = true}; }
   [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const;
   [[nodiscard]] SmoothMueller smooth_mueller(const SmoothLookup& at) const;
-  [[nodiscard]] bool needs_coordinates() const { return reflectance.textured(); }
   [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
-  [[nodiscard]] static constexpr bool opaque() { return true; }
   [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
-  [[nodiscard]] std::size_t texture_bytes() const { return reflectance.memory_bytes(); }
 };
 
 }  // namespace abbe

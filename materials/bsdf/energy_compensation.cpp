@@ -14,10 +14,6 @@ namespace {
 
 constexpr float kMaxLost = 0.999F;  // single scattering never loses all light
 
-bool isotropic(const Microfacets<float>& facets) {
-  return facets.alpha_x == facets.alpha_y;
-}
-
 // A Fibonacci lattice [Sloan1994]: `count` and `step` are consecutive Fibonacci numbers.
 struct Lattice {
   int count, step;
@@ -33,10 +29,10 @@ struct Lattice {
 // directions. Sampling of conductors replaces lost directions, so its pdf is only as exact as the table: with
 // 6,765 normals it is within 5e-4 of E. Dielectrics use fewer, because they compute many indices at once.
 Lattice mirror_lattice(const Microfacets<float>& facets) {
-  return isotropic(facets) ? Lattice{6765, 4181} : Lattice{2584, 1597};
+  return facets.brushed() ? Lattice{2584, 1597} : Lattice{6765, 4181};
 }
 Lattice dielectric_lattice(const Microfacets<float>& facets) {
-  return isotropic(facets) ? Lattice{2584, 1597} : Lattice{1597, 987};
+  return facets.brushed() ? Lattice{1597, 987} : Lattice{2584, 1597};
 }
 
 // Width of the slopes, averaged over azimuths.
@@ -48,12 +44,9 @@ float mean_alpha(const Microfacets<float>& facets) {
 // Its square is 1/2 where the cotangent of the polar angle equals the width of slopes, mainly that in the
 // azimuth of w. `turn` is the azimuth from x to y.
 float tilted_alpha(const Microfacets<float>& facets, const Imath::V3f& w) {
-  if (isotropic(facets)) return facets.projected_alpha(w);
+  if (!facets.brushed()) return facets.projected_alpha(w);
   const float sine = std::sqrt(w.x * w.x + w.y * w.y);
   return 0.75F * facets.projected_alpha(w) + 0.25F * mean_alpha(facets) * sine;
-}
-float tilt_of(float z, float sin_times_alpha) {
-  return std::sqrt(z / (z + sin_times_alpha));
 }
 constexpr float kQuarterTurn = std::numbers::pi_v<float> / 2;
 // Unit vector with these table coordinates, slightly above the horizon at tilt 0.
@@ -111,10 +104,9 @@ struct DensityCells {
 EnergyCompensation::TableCoordinates EnergyCompensation::table_coordinates(const Microfacets<float>& facets,
                                                                            const Imath::V3f& w) {
   const float z = std::abs(w.z);
-  const float tilt = tilt_of(z, tilted_alpha(facets, w));
-  const Cell row = cell_of(tilt, kCells);
+  const Cell row = cell_of(std::sqrt(z / (z + tilted_alpha(facets, w))), kCells);
   const int density_cell = DensityCells(facets, kDensityCells).at(w);
-  if (isotropic(facets)) return {row.number, 0, row.within, 0, density_cell};
+  if (!facets.brushed()) return {row.number, 0, row.within, 0, density_cell};
   const Cell turn = cell_of(std::atan2(std::abs(w.y), std::abs(w.x)) / kQuarterTurn, kTurns - 1);
   return {row.number, turn.number, row.within, turn.within, density_cell};
 }
@@ -125,7 +117,7 @@ std::vector<EnergyCompensation> EnergyCompensation::tabulate(const Microfacets<f
   std::vector<double> values(count);
   for (std::size_t i = 0; i < kTilts; ++i)
     for (std::size_t j = 0; j < kTurns; ++j) {
-      if (j == 0 || !isotropic(facets))
+      if (j == 0 || facets.brushed())
         energies(
             table_direction(facets, static_cast<float>(i) / kCells, static_cast<float>(j) / (kTurns - 1)),
             values);
@@ -158,7 +150,7 @@ float EnergyCompensation::at(const TableCoordinates& coordinates) const {
 void EnergyCompensation::prepare_density(const Microfacets<float>& facets) {
   constexpr double kMinDensity = 1e-9;  // every direction has positive pdf
   constexpr int kParts = 8;             // midpoints per cell
-  const int azimuths = isotropic(facets) ? 1 : 8;
+  const int azimuths = facets.brushed() ? 8 : 1;
   const auto mean_at = [&](float cos2) {
     const float sine = std::sqrt(1 - cos2);
     double sum = 0;

@@ -27,7 +27,7 @@ class EnergyCompensation {
 
   /// Writes the energies E(w), w.z > 0, into `energies`, one for each table.
   using Energies = std::function<void(const Imath::V3f& w, std::span<double> energies)>;
-  /// Makes `count` tables, one for each of the energies, from their values for a few hundred directions.
+  /// Makes `count` tables, one for each of the energies.
   [[nodiscard]] static std::vector<EnergyCompensation> tabulate(const Microfacets<float>& facets,
                                                                 std::size_t count, const Energies& energies);
 
@@ -37,8 +37,8 @@ class EnergyCompensation {
   [[nodiscard]] float total() const { return total_; }
   /// Samples a direction w, w.z > 0, approximately in proportion to (1 - E) w.z. `u` is in [0, 1)^2.
   [[nodiscard]] Imath::V3f sample(const Imath::V2f& u) const;
-  [[nodiscard]] float pdf(const TableCoordinates& coordinates,
-                          float cos) const;  ///< Pdf of `sample` [1/sr]; `cos` is |w.z|.
+  /// Pdf of `sample` [1/sr]; `cos` is |w.z|.
+  [[nodiscard]] float pdf(const TableCoordinates& coordinates, float cos) const;
 
  private:
   static constexpr int kTilts = 33;

@@ -37,8 +37,6 @@ struct BsdfSample {
   bool dispersive = false;   ///< True if wi depends on wavelength, so that only the hero continues.
 };
 
-/// Functions shared by the smooth models.
-
 /// Mirror direction of the local direction `wo`.
 [[nodiscard]] inline Imath::V3f mirrored(const Imath::V3f& wo) {
   return {-wo.x, -wo.y, wo.z};

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "materials/bsdf/event.h"
 #include "materials/bsdf/warp.h"
 
 namespace abbe {
@@ -22,7 +21,7 @@ float power_of_cosine(const V3f& a, const V3f& b, float n) {
 }
 
 /// Directions with pdf (n + 1)/(2 pi) cos^n about `axis`. Directions below the horizon get no light.
-struct PowerLobe {
+struct SampledLobe {
   V3f axis;
   float n;
 
@@ -44,84 +43,61 @@ struct PowerLobe {
   }
 };
 
-template <typename Model>
-std::optional<BsdfSample> sample_lobe(const Model& model, const PowerLobe& lobe, const V3f& wo,
-                                      const BsdfRandom& u, TransportMode mode) {
-  if (wo.z == 0) return std::nullopt;
-  const std::optional<V3f> wi = lobe.sample(u.direction);
-  if (!wi) return std::nullopt;
-  const float pdf = lobe.density(*wi);
-  if (!(pdf > 0)) return std::nullopt;
-  return BsdfSample{.wi = *wi, .weight = model.eval(wo, *wi, mode) * (std::abs(wi->z) / pdf), .pdf = pdf};
-}
-
 // The direction of incident light.
 const V3f& source(const V3f& wo, const V3f& wi, TransportMode mode) {
   return mode == TransportMode::radiance ? wi : wo;
 }
 
-bool same_side(const V3f& wo, const V3f& wi) {
-  return wo.z * wi.z > 0;
-}
-
-template <bool Reciprocal>
-PowerLobe lobe_of(const CosinePowerBsdf<Reciprocal>& model, const V3f& wo) {
-  return {V3f(0, 0, std::copysign(1.0F, wo.z)), 1 + (Reciprocal ? model.exponent : 0)};
-}
-PowerLobe lobe_of(const PhongBsdf& model, const V3f& wo) {
-  return {mirrored(wo), model.exponent};
-}
-PowerLobe lobe_of(const RetroreflectorBsdf& model, const V3f& wo) {
-  return {wo, model.exponent};
+// The lobe from which directions are sampled.
+template <PowerLobe Lobe>
+SampledLobe lobe_of(const PowerLobeBsdf<Lobe>& model, const V3f& wo) {
+  if constexpr (Lobe == PowerLobe::phong) return {mirrored(wo), model.exponent};
+  if constexpr (Lobe == PowerLobe::retroreflector) return {wo, model.exponent};
+  return {V3f(0, 0, std::copysign(1.0F, wo.z)), 1 + (Lobe == PowerLobe::cosine ? 0 : model.exponent)};
 }
 
 }  // namespace
 
-template <bool Reciprocal>
-std::optional<BsdfSample> CosinePowerBsdf<Reciprocal>::sample(const V3f& wo, const BsdfRandom& u,
-                                                              int /*hero*/, TransportMode mode) const {
-  return sample_lobe(*this, lobe_of(*this, wo), wo, u, mode);
+template <PowerLobe Lobe>
+std::optional<BsdfSample> PowerLobeBsdf<Lobe>::sample(const V3f& wo, const BsdfRandom& u, int /*hero*/,
+                                                      TransportMode mode) const {
+  if (wo.z == 0) return std::nullopt;
+  const SampledLobe lobe = lobe_of(*this, wo);
+  const std::optional<V3f> wi = lobe.sample(u.direction);
+  if (!wi) return std::nullopt;
+  const float pdf = lobe.density(*wi);
+  if (!(pdf > 0)) return std::nullopt;
+  return BsdfSample{.wi = *wi, .weight = eval(wo, *wi, mode) * (std::abs(wi->z) / pdf), .pdf = pdf};
 }
-template <bool Reciprocal>
-SampledSpectrum CosinePowerBsdf<Reciprocal>::eval(const V3f& wo, const V3f& wi, TransportMode mode) const {
-  if (!same_side(wo, wi)) return {};
-  if constexpr (Reciprocal)
-    return reflectance * ((exponent + 2) / kTwoPi * std::pow(wo.z * wi.z, exponent));
-  else
-    return reflectance * (2 / kTwoPi * std::pow(std::abs(source(wo, wi, mode).z), exponent));
-}
-template <bool Reciprocal>
-SampledSpectrum CosinePowerBsdf<Reciprocal>::pdf(const V3f& wo, const V3f& wi) const {
-  return SampledSpectrum(lobe_of(*this, wo).density(wi));
-}
-template struct CosinePowerBsdf<false>;
-template struct CosinePowerBsdf<true>;
 
-std::optional<BsdfSample> PhongBsdf::sample(const V3f& wo, const BsdfRandom& u, int /*hero*/,
-                                            TransportMode mode) const {
-  return sample_lobe(*this, lobe_of(*this, wo), wo, u, mode);
-}
-SampledSpectrum PhongBsdf::eval(const V3f& wo, const V3f& wi, TransportMode mode) const {
+template <PowerLobe Lobe>
+SampledSpectrum PowerLobeBsdf<Lobe>::eval(const V3f& wo, const V3f& wi, TransportMode mode) const {
   constexpr float kMinCosine = 1e-6F;  // bounds the unbounded BRDF
-  if (!same_side(wo, wi)) return {};
-  const float cos_i = std::max(std::abs(source(wo, wi, mode).z), kMinCosine);
-  return reflectance * ((exponent + 1) / kTwoPi * power_of_cosine(mirrored(wo), wi, exponent) / cos_i);
+  if (!(wo.z * wi.z > 0)) return {};
+  const float cos_i = std::abs(source(wo, wi, mode).z);
+  switch (Lobe) {
+    case PowerLobe::cosine:
+      return reflectance * (2 / kTwoPi * std::pow(cos_i, exponent));
+    case PowerLobe::reciprocal_cosine:
+      return reflectance * ((exponent + 2) / kTwoPi * std::pow(wo.z * wi.z, exponent));
+    case PowerLobe::phong:
+      return reflectance * ((exponent + 1) / kTwoPi * power_of_cosine(mirrored(wo), wi, exponent) /
+                            std::max(cos_i, kMinCosine));
+    case PowerLobe::retroreflector:
+      return reflectance * ((exponent + 2) / kTwoPi * power_of_cosine(wo, wi, exponent));
+  }
+  return {};
 }
-SampledSpectrum PhongBsdf::pdf(const V3f& wo, const V3f& wi) const {
+
+template <PowerLobe Lobe>
+SampledSpectrum PowerLobeBsdf<Lobe>::pdf(const V3f& wo, const V3f& wi) const {
   return SampledSpectrum(lobe_of(*this, wo).density(wi));
 }
 
-std::optional<BsdfSample> RetroreflectorBsdf::sample(const V3f& wo, const BsdfRandom& u, int /*hero*/,
-                                                     TransportMode mode) const {
-  return sample_lobe(*this, lobe_of(*this, wo), wo, u, mode);
-}
-SampledSpectrum RetroreflectorBsdf::eval(const V3f& wo, const V3f& wi, TransportMode /*mode*/) const {
-  if (!same_side(wo, wi)) return {};
-  return reflectance * ((exponent + 2) / kTwoPi * power_of_cosine(wo, wi, exponent));
-}
-SampledSpectrum RetroreflectorBsdf::pdf(const V3f& wo, const V3f& wi) const {
-  return SampledSpectrum(lobe_of(*this, wo).density(wi));
-}
+template struct PowerLobeBsdf<PowerLobe::cosine>;
+template struct PowerLobeBsdf<PowerLobe::reciprocal_cosine>;
+template struct PowerLobeBsdf<PowerLobe::phong>;
+template struct PowerLobeBsdf<PowerLobe::retroreflector>;
 
 std::variant<CosinePowerBsdf<false>, CosinePowerBsdf<true>> CosinePowerMaterial::bsdf(
     const SurfaceLookup& at) const {
@@ -129,14 +105,6 @@ std::variant<CosinePowerBsdf<false>, CosinePowerBsdf<true>> CosinePowerMaterial:
   const auto a = static_cast<float>(exponent);
   if (reciprocal) return CosinePowerBsdf<true>{rho, a};
   return CosinePowerBsdf<false>{rho, a};
-}
-
-PhongBsdf PhongMaterial::bsdf(const SurfaceLookup& at) const {
-  return {reflectance(at), static_cast<float>(exponent)};
-}
-
-RetroreflectorBsdf RetroreflectorMaterial::bsdf(const SurfaceLookup& at) const {
-  return {reflectance(at), static_cast<float>(exponent)};
 }
 
 }  // namespace abbe

@@ -54,6 +54,10 @@ float retro_diffuse(float roughness, float cos_o, float cos_i, float cos_d) {
   return (1 + more * fifth_power(cos_o)) * (1 + more * fifth_power(cos_i)) / kPi;
 }
 
+V3f above(const V3f& w) {
+  return {w.x, w.y, std::abs(w.z)};
+}
+
 }  // namespace
 
 // Two directions with z > 0 and the facet that mirrors one into the other.
@@ -173,14 +177,6 @@ Principled::Terms Principled::albedo(float cosine) const {
   const Terms& b = albedo_[i + 1];
   return {a.white + t * (b.white - a.white), a.coloured + t * (b.coloured - a.coloured)};
 }
-
-namespace {
-
-V3f above(const V3f& w) {
-  return {w.x, w.y, std::abs(w.z)};
-}
-
-}  // namespace
 
 SampledSpectrum PrincipledBsdf::eval(const V3f& wo, const V3f& wi, TransportMode /*mode*/) const {
   if (!(wo.z * wi.z > 0)) return {};

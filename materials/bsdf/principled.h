@@ -22,9 +22,8 @@ struct PrincipledParameters {
 
 /// Reflectance of a clear coat of strength 1, relative to that of a layer of index 1.5.
 inline constexpr double kCoatScale = 0.25;
-/// Alpha of the clear coat at a gloss of 0.
+/// Alpha of the clear coat at a gloss of 0 and of 1.
 inline constexpr double kDullCoatAlpha = 0.1;
-/// Alpha of the clear coat at a gloss of 1.
 inline constexpr double kGlossyCoatAlpha = 0.001;
 
 /// The principled model without its base colour, with its directional albedo at 32 cosines. Directions are
@@ -37,7 +36,6 @@ class Principled {
     float coloured = 0;
   };
 
-  /// Tabulates the directional albedo.
   explicit Principled(const PrincipledParameters& parameters);
 
   /// The scattering function of [Burley2012], without the limit on energy. It is 0 unless both directions
@@ -78,9 +76,6 @@ class Principled {
 /// This leaves f unchanged where both directions conserve energy, makes all directions conserve it, and
 /// preserves reciprocity.
 struct PrincipledBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = false;
-
   SampledSpectrum base;          ///< In [0, 1].
   const Principled* principled;  ///< Model of the material, which must outlive this.
 
@@ -90,8 +85,7 @@ struct PrincipledBsdf {
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
 };
 
-/// Burley's principled model; `reflectance` is its base colour. `SurfaceModel` describes the member
-/// functions.
+/// Burley's principled model; `reflectance` is its base colour.
 struct PrincipledMaterial : OpaqueSurface {
   Principled principled;
 

@@ -1,17 +1,11 @@
 #include "materials/bsdf/rough.h"
 
-#include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
 #include <utility>
-#include <vector>
 
-#include "materials/bsdf/event.h"
-#include "materials/index/relative_index.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/mueller.h"
 #include "sampling/sampler.h"
@@ -300,13 +294,6 @@ std::shared_ptr<const RoughInterface> make_interface(const Microfacets<float>& f
   return std::make_shared<RoughInterface>(facets, range.low, range.high);
 }
 
-Curve mean_reflectance_of(const RefractiveIndex& metal) {
-  std::vector<Knot> knots;
-  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm)
-    knots.push_back({double(nm), diffuse_reflectance(metal.n(double(nm)), metal.k(double(nm)))});
-  return Curve(std::move(knots));
-}
-
 }  // namespace
 
 RoughMetal::RoughMetal(const Microfacets<float>& of) : facets(of), lost(lost_by_mirror(of)) {}
@@ -447,7 +434,7 @@ RoughConductorMaterial::RoughConductorMaterial(std::string name, RefractiveIndex
                                                const Microfacets<float>& facets)
     : index_name(std::move(name)),
       index(std::move(metal)),
-      mean_reflectance(mean_reflectance_of(index)),
+      mean_reflectance(each_nm([this](double nm) { return diffuse_reflectance(index.n(nm), index.k(nm)); })),
       surface(std::make_shared<RoughMetal>(facets)) {}
 
 RoughConductorBsdf RoughConductorMaterial::bsdf(const SurfaceLookup& at) const {

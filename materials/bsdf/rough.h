@@ -19,19 +19,15 @@
 
 namespace abbe {
 
-// The models below satisfy `BsdfModel` of `materials/bsdf.h`, which describes `sample`, `eval`, `pdf`
-// and `index_inside`. `eval` returns f(wo, wi) [1/sr] without the cosine of wi.
-
 /// Reflecting microfacets with their table of lost energy, computed once for all wavelengths.
 struct RoughMetal {
-  /// Tabulates the lost energy.
   explicit RoughMetal(const Microfacets<float>& facets);
 
   Microfacets<float> facets;
   EnergyCompensation lost;
 };
 
-/// Microfacets between two media, with tables of lost energy. The inner index relative to the outer one is in
+/// Microfacets between two media, with tables of lost energy for inner indices relative to the outer one in
 /// [low_n, high_n].
 ///
 /// Energies are tabulated at an odd number of indices. From one even-numbered index to the next, they are
@@ -41,7 +37,6 @@ struct RoughMetal {
 struct RoughInterface {
   static constexpr std::size_t kMaxIndices = 17;  ///< Largest number of tabulated indices.
 
-  /// Tabulates the lost energy for relative indices in [low_n, high_n].
   RoughInterface(const Microfacets<float>& facets, float low_n, float high_n);
 
   /// The coordinate x of a relative index n.
@@ -50,7 +45,7 @@ struct RoughInterface {
   [[nodiscard]] float distance_to(float low, float high) const {
     return std::max({low_n - low, high - high_n, 0.0F});
   }
-  /// Position in `coordinates` of the index whose tables sample multiple scattering.
+  /// Index in `coordinates` of the tables that sample multiple scattering.
   [[nodiscard]] std::size_t sampling_index() const { return coordinates.size() / 2; }
 
   Microfacets<float> facets;
@@ -66,11 +61,9 @@ struct RoughInterface {
 /// height-correlated masking [Heitz2014, eq. 99]. Multiple scattering [Kulla2017] is coloured by the
 /// conductor's diffuse reflectance.
 struct RoughConductorBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = false;
   static constexpr bool kGlossy = true;
 
-  SampledSpectrum wavelengths_nm;    ///< Wavelengths in standard air [nm].
+  SampledSpectrum wavelengths_nm;    ///< In standard air.
   SampledSpectrum mean_reflectance;  ///< `diffuse_reflectance` relative to the outside.
   const RefractiveIndex* index;      ///< Complex index of the conductor.
   const RefractiveIndex* outside;    ///< Index outside; nullptr is air.
@@ -100,8 +93,6 @@ struct RoughConductorBsdf {
 /// not accumulate along long paths. The pdf of multiple scattering is as accurate as the tables, about 1e-3
 /// of the light.
 struct RoughDielectricBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = false;
   static constexpr bool kGlossy = true;
   static constexpr bool kBothSides = true;
 
@@ -120,9 +111,8 @@ struct RoughDielectricBsdf {
 };
 
 /// A rough dielectric interface; alpha_x of the facets is the roughness along u, alpha_y that perpendicular
-/// to it. `SurfaceModel` describes the member functions. If both alphas are below `kMinAlpha`, the scene uses
-/// a `DielectricMaterial` instead. A relative index within 1e-3 of 1 is replaced by the nearest one that
-/// differs by 1e-3.
+/// to it. If both are below `kMinAlpha`, the scene uses a `DielectricMaterial` instead. A relative index
+/// within 1e-3 of 1 is replaced by the nearest one that differs by 1e-3.
 class RoughDielectricMaterial {
  public:
   /// Tabulates multiple scattering in air, which takes some tens of milliseconds.
@@ -154,7 +144,6 @@ class RoughDielectricMaterial {
 };
 
 /// A rough conductor; alpha_x of the facets is the roughness along u, alpha_y that perpendicular to it.
-/// `SurfaceModel` describes the member functions.
 class RoughConductorMaterial {
  public:
   RoughConductorMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets);

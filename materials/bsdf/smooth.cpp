@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "materials/bsdf/event.h"
-#include "materials/index/relative_index.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/mueller.h"
 
@@ -45,32 +43,9 @@ BsdfSample together(const Imath::V3f& wi, const SampledSpectrum& part, const Pow
           .delta = true};
 }
 
-// Reflectance for unpolarised light from `wo`.
-inline SampledSpectrum reflectance(const ConductorBsdf& metal, const Imath::V3f& wo) {
-  const float cos_i = std::min(std::abs(wo.z), 1.0F);
-  return SampledSpectrum::map(metal.n, metal.k,
-                              [cos_i](float n, float k) { return fresnel_conductor(cos_i, n, k).R(); });
-}
-
 // Fresnel power for light from `wo` at the surface of a medium of relative index n.
 FresnelPower<float> fresnel(const Imath::V3f& wo, float n) {
-  return fresnel_dielectric(std::min(std::abs(wo.z), 1.0F), wo.z < 0 ? 1 / n : n);
-}
-
-// The reflected direction is the same at every wavelength, so all wavelengths continue. Each draws reflection
-// with its own reflectance as probability, which `ratio` contains.
-BsdfSample reflected(const Imath::V3f& wo, const SampledSpectrum& ratio, float probability) {
-  return {.wi = mirrored(wo), .weight = ratio, .lane_pdf = ratio, .pdf = probability, .delta = true};
-}
-
-// Refraction follows the hero wavelength. The other wavelengths can continue only if all have the same index.
-BsdfSample refracted(const Imath::V3f& wo, const FresnelPower<float>& f, float eta, TransportMode mode) {
-  const float probability = 1 - f.R();
-  return {.wi = refracted_direction(wo, eta, f.cos_t),
-          .weight = SampledSpectrum(f.transmitted() / probability * refraction_scale(eta, mode)),
-          .pdf = probability,
-          .delta = true,
-          .transmitted = true};
+  return fresnel_dielectric(cosine_of(wo), wo.z < 0 ? 1 / n : n);
 }
 
 }  // namespace
@@ -132,11 +107,14 @@ SampledSpectrum CoatedConductorBsdf::delta_power(const Imath::V3f& wo, bool thro
 std::optional<BsdfSample> ConductorBsdf::sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
                                                 TransportMode /*mode*/) const {
   if (wo.z == 0) return std::nullopt;
-  return BsdfSample{.wi = mirrored(wo), .weight = reflectance(*this, wo), .pdf = 1, .delta = true};
+  return BsdfSample{.wi = mirrored(wo), .weight = delta_power(wo, false), .pdf = 1, .delta = true};
 }
 
 SampledSpectrum ConductorBsdf::delta_power(const Imath::V3f& wo, bool through) const {
-  return through ? SampledSpectrum() : reflectance(*this, wo);
+  if (through) return {};
+  return SampledSpectrum::map(n, k, [cos_i = cosine_of(wo)](float lane_n, float lane_k) {
+    return fresnel_conductor(cos_i, lane_n, lane_k).R();
+  });
 }
 
 float DielectricBsdf::reflectance(const Imath::V3f& wo, int lane) const {
@@ -147,12 +125,21 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Imath::V3f& wo, const Bsd
                                                  TransportMode mode) const {
   if (wo.z == 0) return std::nullopt;
   const FresnelPower<float> f = fresnel(wo, n[hero]);
-  if (u.lobe >= f.R()) {
-    const BsdfSample s = refracted(wo, f, eta(wo, hero), mode);
-    return dispersive ? only_lane(s, hero) : s;
+  const float R = f.R();
+  if (u.lobe < R) {
+    // Each wavelength draws reflection with its own reflectance as probability.
+    const SampledSpectrum ratio =
+        dispersive ? delta_power(wo, false) / SampledSpectrum(R) : SampledSpectrum(1);
+    return BsdfSample{.wi = mirrored(wo), .weight = ratio, .lane_pdf = ratio, .pdf = R, .delta = true};
   }
-  if (!dispersive) return reflected(wo, SampledSpectrum(1), f.R());
-  return reflected(wo, delta_power(wo, false) / SampledSpectrum(f.R()), f.R());
+  // Refraction follows the hero. The other wavelengths can continue only if all have the same index.
+  const float relative = eta(wo, hero);
+  const BsdfSample s{.wi = refracted_direction(wo, relative, f.cos_t),
+                     .weight = SampledSpectrum(f.transmitted() / (1 - R) * refraction_scale(relative, mode)),
+                     .pdf = 1 - R,
+                     .delta = true,
+                     .transmitted = true};
+  return dispersive ? only_lane(s, hero) : s;
 }
 
 SampledSpectrum DielectricBsdf::delta_power(const Imath::V3f& wo, bool through) const {

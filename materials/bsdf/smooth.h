@@ -15,9 +15,6 @@ namespace abbe {
 
 /// A smooth dielectric interface with its normal towards the outside.
 struct DielectricBsdf {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum n;  ///< Inside index relative to the outside.
   /// True if n may differ between wavelengths; then only the hero continues after refraction.
   bool dispersive;
@@ -30,17 +27,13 @@ struct DielectricBsdf {
   [[nodiscard]] float index_inside(int lane) const { return n[lane]; }
   /// Index of the far side divided by that of the side of `wo`.
   [[nodiscard]] float eta(const Imath::V3f& wo, int lane) const { return wo.z < 0 ? 1 / n[lane] : n[lane]; }
-  /// Reflectance for unpolarised light.
   [[nodiscard]] float reflectance(const Imath::V3f& wo, int lane) const;
 };
 
 /// A smooth conductor, opaque, reflecting on both sides.
 struct ConductorBsdf {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum n;  ///< Real part of the index relative to the outside.
-  SampledSpectrum k;  ///< Imaginary part of that index, 0 or more.
+  SampledSpectrum k;  ///< Imaginary part, 0 or more.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
@@ -49,12 +42,9 @@ struct ConductorBsdf {
                                                      std::optional<int> lane) const;
 };
 
-/// A smooth dielectric interface under thin films, which may absorb. It refers to the material, which must
-/// outlive it, and holds the wavelengths of the packet. Films do not scatter; they absorb what they neither
-/// reflect nor transmit.
+/// A smooth dielectric interface under thin films, which absorb what they neither reflect nor transmit. It
+/// refers to the material, which must outlive it, and holds the wavelengths of the packet.
 struct CoatedDielectricBsdf {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
   static constexpr bool kAbsorbingFilms = true;
 
   SampledSpectrum wavelengths_nm;  ///< Wavelengths in standard air [nm].
@@ -75,9 +65,6 @@ struct CoatedDielectricBsdf {
 /// A smooth conductor under thin films, opaque, reflecting on both sides. It refers to the material, which
 /// must outlive it.
 struct CoatedConductorBsdf {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum wavelengths_nm;  ///< Wavelengths in standard air [nm].
   const RefractiveIndex* index;    ///< Complex index of the conductor.
   const Coating* coating;
@@ -90,8 +77,7 @@ struct CoatedConductorBsdf {
                                                      std::optional<int> lane) const;
 };
 
-/// A smooth interface to a transparent or absorbing medium, optionally under thin films. `SurfaceModel`
-/// describes the member functions.
+/// A smooth interface to a transparent or absorbing medium, optionally under thin films.
 struct DielectricMaterial {
   std::string index_name;
   RefractiveIndex index;
@@ -110,7 +96,6 @@ struct DielectricMaterial {
 };
 
 /// Thin films with the same medium on both sides, such as a soap bubble. Light crosses them undeflected.
-/// `SurfaceModel` describes the member functions.
 struct FilmMaterial {
   Coating layers;
 
@@ -122,7 +107,7 @@ struct FilmMaterial {
   [[nodiscard]] std::vector<IndexUse> indices() const { return indices_of(layers); }
 };
 
-/// A smooth metal, optionally under thin films. `SurfaceModel` describes the member functions.
+/// A smooth metal, optionally under thin films.
 struct ConductorMaterial {
   std::string index_name;
   RefractiveIndex index;
@@ -139,11 +124,9 @@ struct ConductorMaterial {
 };
 
 /// The boundary of a medium without an interface, such as fog or smoke. Light passes it unchanged.
-/// `SurfaceModel` describes the member functions.
 struct MediumMaterial {
   Medium interior_medium;
 
-  /// The interface between equal media, which changes nothing.
   [[nodiscard]] static DielectricBsdf bsdf(const SurfaceLookup& /*at*/) {
     return {SampledSpectrum(1.0F), false};
   }

@@ -16,6 +16,8 @@
 
 namespace abbe {
 
+// Parts of the materials, whose member functions `SurfaceModel` (`materials/material.h`) describes.
+
 /// Kinds of lobes into which a material may scatter, by its model alone: a black diffuse material has a
 /// spread lobe. The boundary of a medium without an interface has none.
 struct Lobes {
@@ -35,8 +37,7 @@ struct SmoothLookup {
   [[nodiscard]] FresnelPower<double> undeflected(double T) const { return {0, 0, T, T, cos_i}; }
 };
 
-/// Normalised Mueller matrices of the delta lobes, without the power of `smooth_power`. All elements are 0 if
-/// the lobe depolarises.
+/// Normalised Mueller matrices of the delta lobes. All elements are 0 if the lobe depolarises.
 struct SmoothMueller {
   InterfaceMueller<double> matrices;
   /// Axis of a thin element in the plane of the surface, with x along u. The axis of the matrices is its
@@ -45,13 +46,12 @@ struct SmoothMueller {
   std::optional<Imath::V2d> axis = {};
 };
 
-/// The power of an opaque surface, which transmits nothing.
+/// `power` without what enters an opaque surface.
 [[nodiscard]] inline FresnelPower<double> without_transmission(const FresnelPower<double>& power) {
   return {power.Rs, power.Rp, 0, 0, 0};
 }
 
-/// A refractive index that a material uses, with its name in that material. The material owns both and must
-/// outlive this.
+/// A refractive index that a material uses, with its name. The material owns both and must outlive this.
 struct IndexUse {
   const std::string* name;
   const RefractiveIndex* index;
@@ -72,8 +72,7 @@ struct IndexUse {
   return uses;
 }
 
-/// The part common to all opaque surfaces without an index: a texture of reflectance. `SurfaceModel`
-/// describes the member functions.
+/// The part common to all opaque surfaces without an index.
 struct OpaqueSurface {
   SpectralTexture reflectance;  ///< In [0, 1]; the model defines for which light.
 

@@ -1,10 +1,8 @@
 #include "materials/bsdf/thin_element.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
-#include "materials/bsdf/event.h"
 #include "materials/interface/thin_sheet.h"
 
 namespace abbe {
@@ -16,16 +14,6 @@ Imath::V2d surface_axis(double angle) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-// Reflectance and transmittance of the sheet for unpolarised light.
-struct Sheet {
-  float reflected, transmitted;
-};
-
-Sheet sheet(float cos_i, float n, float depth) {
-  const FresnelPower<float> power = sheet_power(cos_i, n, depth);
-  return {power.R(), power.transmitted()};
-}
-
 }  // namespace
 
 // Each wavelength reflects with the probability R/(R + T).
@@ -33,18 +21,18 @@ std::optional<BsdfSample> ThinGlassBsdf::sample(const Imath::V3f& wo, const Bsdf
                                                 TransportMode /*mode*/) const {
   if (wo.z == 0) return std::nullopt;
   const float cos_i = std::min(std::abs(wo.z), 1.0F);
-  const Sheet chosen = sheet(cos_i, n[hero], depth[hero]);
-  const float leaving = chosen.reflected + chosen.transmitted;
+  const FresnelPower<float> chosen = sheet_power(cos_i, n[hero], depth[hero]);
+  const float leaving = chosen.R() + chosen.transmitted();
   if (!(leaving > 0)) return std::nullopt;
-  const bool passes = u.lobe * leaving >= chosen.reflected;
-  const float probability = (passes ? chosen.transmitted : chosen.reflected) / leaving;
+  const bool passes = u.lobe * leaving >= chosen.R();
+  const float probability = (passes ? chosen.transmitted() : chosen.R()) / leaving;
   SampledSpectrum::Values weight;
   SampledSpectrum::Values lane_pdf;
   for (std::size_t j = 0; j < kLanes; ++j) {
-    const Sheet lane = sheet(cos_i, n[static_cast<int>(j)], depth[static_cast<int>(j)]);
-    const float part = passes ? lane.transmitted : lane.reflected;
+    const FresnelPower<float> lane = sheet_power(cos_i, n[static_cast<int>(j)], depth[static_cast<int>(j)]);
+    const float part = passes ? lane.transmitted() : lane.R();
     weight[j] = part / probability;
-    lane_pdf[j] = part > 0 ? part / (lane.reflected + lane.transmitted) / probability : 0.0F;
+    lane_pdf[j] = part > 0 ? part / (lane.R() + lane.transmitted()) / probability : 0.0F;
   }
   return BsdfSample{.wi = passes ? -wo : mirrored(wo),
                     .weight = SampledSpectrum(weight),
@@ -62,8 +50,8 @@ SampledSpectrum ThinGlassBsdf::delta_probability(const Imath::V3f& wo) const {
 SampledSpectrum ThinGlassBsdf::delta_power(const Imath::V3f& wo, bool through) const {
   const float cos_i = std::min(std::abs(wo.z), 1.0F);
   return SampledSpectrum::map(n, depth, [=](float lane_n, float lane_depth) {
-    const Sheet lane = sheet(cos_i, lane_n, lane_depth);
-    return through ? lane.transmitted : lane.reflected;
+    const FresnelPower<float> lane = sheet_power(cos_i, lane_n, lane_depth);
+    return through ? lane.transmitted() : lane.R();
   });
 }
 
@@ -95,10 +83,6 @@ WavePlateBsdf WavePlateMaterial::bsdf(const SurfaceLookup& at) const {
                              return static_cast<float>(std::remainder(retardance(nm), 2 * std::numbers::pi));
                            }),
       Imath::V2f(surface_axis(angle))};
-}
-
-DepolariserBsdf DepolariserMaterial::bsdf(const SurfaceLookup& at) const {
-  return {{transmittance(at.wavelengths_nm)}};
 }
 
 std::optional<MuellerMatrix> ThinGlassBsdf::mueller(const Imath::V3f& wo, const Imath::V3f& wi,
@@ -139,20 +123,8 @@ SmoothMueller PolariserMaterial::smooth_mueller(const SmoothLookup& at) const {
   return {{{}, polariser_mueller(blocked(at.wavelength_nm))}, surface_axis(angle)};
 }
 
-std::optional<FresnelPower<double>> WavePlateMaterial::smooth_power(const SmoothLookup& at) const {
-  return at.undeflected(transmittance(at.wavelength_nm));
-}
-
 SmoothMueller WavePlateMaterial::smooth_mueller(const SmoothLookup& at) const {
   return {{{}, wave_plate_mueller(retardance(at.wavelength_nm))}, surface_axis(angle)};
-}
-
-std::optional<FresnelPower<double>> DepolariserMaterial::smooth_power(const SmoothLookup& at) const {
-  return at.undeflected(transmittance(at.wavelength_nm));
-}
-
-SmoothMueller DepolariserMaterial::smooth_mueller(const SmoothLookup& /*at*/) const {
-  return {{{}, {0, 0, 0, 0}}};
 }
 
 }  // namespace abbe

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -18,9 +17,6 @@ namespace abbe {
 
 /// The part common to all thin elements: their action on unpolarised light.
 struct ThinElement {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum transmittance;  ///< Transmittance of unpolarised light, in [0, 1].
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
@@ -33,7 +29,7 @@ struct ThinElement {
   }
 };
 
-/// A linear polariser. It absorbs what it does not transmit.
+/// A linear polariser.
 struct PolariserBsdf : ThinElement {
   SampledSpectrum blocked;  ///< Transmittance perpendicular to the axis divided by that along it, in [0, 1].
   Imath::V2f axis;          ///< Unit vector along which fields are transmitted.
@@ -41,7 +37,6 @@ struct PolariserBsdf : ThinElement {
                                                      std::optional<int> lane) const;
 };
 
-/// A wave plate.
 struct WavePlateBsdf : ThinElement {
   SampledSpectrum retardance;  ///< Phase lag of fields perpendicular to the fast axis [rad].
   Imath::V2f axis;             ///< Unit vector along the fast axis.
@@ -50,21 +45,12 @@ struct WavePlateBsdf : ThinElement {
 };
 
 /// A sheet that depolarises the light it transmits.
-struct DepolariserBsdf : ThinElement {
-  [[nodiscard]] static std::optional<MuellerMatrix> mueller(const Imath::V3f& /*wo*/,
-                                                            const Imath::V3f& /*wi*/, bool /*delta*/,
-                                                            std::optional<int> /*lane*/) {
-    return std::nullopt;
-  }
-};
+struct DepolariserBsdf : ThinElement {};
 
 /// A sheet of transparent or absorbing glass with the same medium on both sides. It reflects light or
 /// transmits it undeflected, in the same directions at all wavelengths. Its powers include all reflections
 /// between the faces, without interference (`sheet_power`).
 struct ThinGlassBsdf {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum n;  ///< Index relative to the medium outside.
   /// Optical depth of one passage along the normal, 0 or more: -ln a, where a is the internal transmittance.
   SampledSpectrum depth;
@@ -79,8 +65,7 @@ struct ThinGlassBsdf {
                                                      std::optional<int> lane) const;
 };
 
-/// A pane of glass modelled as one surface that does not deflect light, by `ThinGlassBsdf`. `SurfaceModel`
-/// describes the member functions.
+/// A pane of glass modelled as one surface that does not deflect light, by `ThinGlassBsdf`.
 struct ThinGlassMaterial {
   std::string index_name;
   RefractiveIndex index;  ///< k makes the pane absorb.
@@ -95,20 +80,20 @@ struct ThinGlassMaterial {
   [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
 };
 
-/// The part common to all thin elements. `SurfaceModel` describes the member functions.
 struct ThinElementMaterial {
   Curve transmittance;  ///< In [0, 1]; the model defines for which light.
 
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
+  [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const {
+    return at.undeflected(transmittance(at.wavelength_nm));
+  }
 };
 
 /// A linear polariser; `transmittance` is that of light polarised along its axis.
 struct PolariserMaterial : ThinElementMaterial {
-  Curve
-      blocked;   ///< Transmittance perpendicular to the axis divided by that along it, in [0, 1]; 0 is ideal.
-  double angle;  ///< Angle of the transmission axis [rad].
+  Curve blocked;  ///< Transmittance perpendicular to the axis divided by that along it, in [0, 1].
+  double angle;   ///< Angle of the transmission axis [rad].
 
-  /// Transmittance for unpolarised light.
   [[nodiscard]] double mean_transmittance(double wavelength_nm) const {
     return transmittance(wavelength_nm) * (1 + blocked(wavelength_nm)) / 2;
   }
@@ -134,16 +119,17 @@ struct WavePlateMaterial : ThinElementMaterial {
   /// plate is treated as thin, so the value holds for all directions.
   [[nodiscard]] double retardance(double wavelength_nm) const;
   [[nodiscard]] WavePlateBsdf bsdf(const SurfaceLookup& at) const;
-  [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const;
   [[nodiscard]] SmoothMueller smooth_mueller(const SmoothLookup& at) const;
   [[nodiscard]] static constexpr bool needs_coordinates() { return true; }
 };
 
-/// A sheet that depolarises light.
 struct DepolariserMaterial : ThinElementMaterial {
-  [[nodiscard]] DepolariserBsdf bsdf(const SurfaceLookup& at) const;
-  [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const;
-  [[nodiscard]] SmoothMueller smooth_mueller(const SmoothLookup& at) const;
+  [[nodiscard]] DepolariserBsdf bsdf(const SurfaceLookup& at) const {
+    return {{transmittance(at.wavelengths_nm)}};
+  }
+  [[nodiscard]] static SmoothMueller smooth_mueller(const SmoothLookup& /*at*/) {
+    return {{{}, {0, 0, 0, 0}}};
+  }
 };
 
 }  // namespace abbe

@@ -15,7 +15,6 @@ namespace abbe {
   return Imath::V3f(Imath::V3d(sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta));
 }
 
-/// Sine and cosine of an angle.
 struct SineCosine {
   float sine, cosine;
 };

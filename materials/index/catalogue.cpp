@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -14,7 +13,6 @@
 #include "io/text.h"
 #include "io/yaml.h"
 #include "spectral/air.h"
-#include "spectral/library.h"
 
 namespace abbe {
 
@@ -30,27 +28,16 @@ std::optional<std::string> glass_at(const std::string& db_path) {
   return fmt::format("{}/{}", std::next(part)->string(), path.stem().string());
 }
 
-/// Reads a catalogue at the first request and caches it. Thread-safe.
-class CatalogueCache {
- public:
-  CatalogueCache(const char* file, bool with_extinction) : file_(file), with_extinction_(with_extinction) {}
-
-  const Catalogue* get(Diagnostics& diagnostics) {
-    const std::lock_guard lock(mutex_);
-    if (!catalogue_) {
-      auto table = read_table(data_directory() / kGlassFolder / file_, TableOrigin::shipped, diagnostics);
-      if (!table) return nullptr;
-      catalogue_.emplace(*std::move(table), with_extinction_);
-    }
-    return &*catalogue_;
-  }
-
- private:
-  const char* file_;
-  bool with_extinction_;
-  std::mutex mutex_;
-  std::optional<Catalogue> catalogue_;
-};
+/// A shipped catalogue, read at the first request. Thread-safe.
+const Catalogue* cached(const char* file, bool with_extinction, Diagnostics& diagnostics) {
+  static std::mutex mutex;
+  static std::map<std::string, Catalogue> catalogues;
+  const std::lock_guard lock(mutex);
+  if (const auto known = catalogues.find(file); known != catalogues.end()) return &known->second;
+  auto table = read_table(data_directory() / kGlassFolder / file, TableOrigin::shipped, diagnostics);
+  if (!table) return nullptr;
+  return &catalogues.try_emplace(file, *std::move(table), with_extinction).first->second;
+}
 
 }  // namespace
 
@@ -129,13 +116,11 @@ std::string Catalogue::source_of(std::size_t row) const {
 }
 
 const Catalogue* dielectrics(Diagnostics& diagnostics) {
-  static CatalogueCache shelf("dielectrics.csv", true);
-  return shelf.get(diagnostics);
+  return cached("dielectrics.csv", true, diagnostics);
 }
 
 const Catalogue* makers(Diagnostics& diagnostics) {
-  static CatalogueCache shelf("makers.csv", false);
-  return shelf.get(diagnostics);
+  return cached("makers.csv", false, diagnostics);
 }
 
 namespace {
@@ -143,17 +128,12 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{1} << 22;
 constexpr double kNmPerUm = 1e3;
 
-struct Word {
-  std::string_view text;
-  std::size_t offset;
-};
-
-std::vector<Word> words_of(std::string_view text) {
+std::vector<std::string_view> words_of(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n";
-  std::vector<Word> words;
+  std::vector<std::string_view> words;
   for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string_view::npos;) {
     const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
-    words.push_back({text.substr(at, end - at), at});
+    words.push_back(text.substr(at, end - at));
     at = text.find_first_not_of(kBlanks, end);
   }
   return words;
@@ -171,9 +151,7 @@ std::string plain(std::string_view text) {
     else
       at = end;
   }
-  std::string line;
-  for (const Word& word : words_of(without_tags)) line += (line.empty() ? "" : " ") + std::string(word.text);
-  return line;
+  return fmt::format("{}", fmt::join(words_of(without_tags), " "));
 }
 
 // Allowed numbers of coefficients of a formula: from `min` to `max` in steps of `step`.
@@ -377,13 +355,12 @@ class EntryReader {
 
   bool add_row(Table& table, const std::string& row, const SourcePosition& at) {
     std::vector<std::string> cells;
-    for (const Word& word : words_of(row)) {
-      const auto number = number_at(word.text, at);
+    for (const std::string_view word : words_of(row)) {
+      const auto number = number_at(word, at);
       if (!number) return false;
       if (cells.empty() && !(*number > 0))
-        complain(at, fmt::format("expected a wavelength above 0 (got {})", word.text));
-      cells.push_back(cells.empty() ? fmt::format("{}", to_air_nm(*number * kNmPerUm))
-                                    : std::string(word.text));
+        complain(at, fmt::format("expected a wavelength above 0 (got {})", word));
+      cells.push_back(cells.empty() ? fmt::format("{}", to_air_nm(*number * kNmPerUm)) : std::string(word));
     }
     if (cells.size() != table.columns.size()) {
       complain(at,
@@ -411,8 +388,8 @@ class EntryReader {
       return std::nullopt;
     }
     std::vector<double> numbers;
-    for (const Word& word : words_of(*text)) {
-      const auto number = number_at(word.text, block.find(key)->where);
+    for (const std::string_view word : words_of(*text)) {
+      const auto number = number_at(word, block.find(key)->where);
       if (!number) return std::nullopt;
       numbers.push_back(*number);
     }

@@ -12,18 +12,16 @@
 
 namespace abbe {
 
-/// A refractive index with its name and source.
 struct NamedIndex {
   std::string name;
   std::string source;  ///< Text that identifies the origin of the data.
   RefractiveIndex index;
 };
 
-/// No wavelength range is required of an index table: RefractiveIndex extrapolates n and reports the range of
-/// its data.
+/// Required of an index table is no range: RefractiveIndex extrapolates n and reports the range of its data.
 inline constexpr NeededRange kAnyWavelength{kMaxWavelengthNm, kMinWavelengthNm};
 
-/// The data folder of transparent materials.
+/// Data folder of transparent materials.
 inline constexpr const char* kGlassFolder = "glass";
 
 /// A table of `data/glass` with one dispersion formula per row. Rows are numbered from 0. Columns: id,

@@ -17,11 +17,6 @@ struct DispersionFormula {
   bool vacuum_wavelengths = false;  ///< True if its wavelengths are in vacuum, false if in standard air.
 };
 
-/// n by formula `f.id` at a wavelength in MICROMETRES, in the medium of the formula's wavelengths; its range
-/// is not checked. NaN if n^2 < 0 or the id is unknown.
-template <typename T>
-[[nodiscard]] T dispersion_index(const DispersionFormula& f, const T& wavelength_um);
-
 /// An error message if `f` cannot be used on [low_nm, high_nm], its range of wavelengths [nm]. The reason is
 /// a resonance there (within 1e-3 of its squared wavelength), or n <= 1, or no n, at a wavelength in [300,
 /// 1100] nm. Empty otherwise.
@@ -81,8 +76,10 @@ inline constexpr double kHerzberger = 0.028;
 
 }  // namespace dispersion
 
+/// n by formula `f.id` at a wavelength in MICROMETRES, in the medium of the formula's wavelengths; its range
+/// is not checked. NaN if n^2 < 0 or the id is unknown.
 template <typename T>
-T dispersion_index(const DispersionFormula& f, const T& L) {
+[[nodiscard]] T dispersion_index(const DispersionFormula& f, const T& L) {
   using std::sqrt;
   const auto c = [&f](int i) { return dispersion::coefficient<T>(f, i); };
   const T L2 = L * L;

@@ -7,7 +7,6 @@
 
 #include "io/table.h"
 #include "io/text.h"
-#include "materials/index/catalogue.h"
 #include "spectral/library.h"
 
 namespace abbe {
@@ -93,13 +92,12 @@ std::string qualified(const std::string& name) {
   return lower_case(std::string_view(name).substr(0, maker)) + name.substr(maker);
 }
 
-/// All makers' glasses called `name` without the maker.
-std::vector<std::string> glasses_called(const std::string& name, Diagnostics& diagnostics) {
+/// All makers' glasses, as "maker/glass", sorted.
+std::vector<std::string> all_glasses(Diagnostics& diagnostics) {
   std::vector<std::string> glasses;
   for (const Catalogue* catalogue : {dielectrics(diagnostics), makers(diagnostics)})
     if (catalogue)
-      for (const auto& [glass, row] : catalogue->glasses())
-        if (glass.substr(glass.find('/') + 1) == name) glasses.push_back(glass);
+      for (const auto& [glass, row] : catalogue->glasses()) glasses.push_back(glass);
   std::sort(glasses.begin(), glasses.end());
   return glasses;
 }
@@ -172,7 +170,11 @@ std::optional<NamedIndex> load_index(const std::string& name, const SourcePositi
       return load_tables(folder, path->stem().string(), *path, where, diagnostics);
   }
   std::vector<std::string> glasses{qualified(name)};
-  if (name.find('/') == std::string::npos) glasses = glasses_called(name, diagnostics);
+  if (name.find('/') == std::string::npos) {
+    glasses = all_glasses(diagnostics);
+    std::erase_if(glasses,
+                  [&](const std::string& glass) { return glass.substr(glass.find('/') + 1) != name; });
+  }
   if (glasses.size() > 1) {
     diagnostics.error(where, fmt::format("several makers sell a glass \"{}\"; name one of {}", name,
                                          fmt::join(glasses, ", ")));
@@ -201,12 +203,7 @@ std::vector<std::string> index_names() {
 
 std::vector<std::string> glass_names() {
   Diagnostics ignored;
-  std::vector<std::string> names;
-  for (const Catalogue* catalogue : {dielectrics(ignored), makers(ignored)})
-    if (catalogue)
-      for (const auto& [glass, row] : catalogue->glasses()) names.push_back(glass);
-  std::sort(names.begin(), names.end());
-  return names;
+  return all_glasses(ignored);
 }
 
 }  // namespace abbe

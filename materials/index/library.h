@@ -38,13 +38,12 @@ void require_k_at(const NamedIndex& material, std::span<const double> wavelength
 void require_between(const std::string& name, double low_nm, double high_nm,
                      std::span<const double> wavelengths_nm, const std::string& where);
 
-/// True if `name` ends with `.yml` or `.yaml`, the extensions of refractiveindex.info files.
+/// True if `name` has an extension of refractiveindex.info files, `.yml` or `.yaml`.
 [[nodiscard]] bool is_refractiveindex_info(const std::string& name);
 
-/// All names of dielectrics and of n, k tables, including aliases, sorted. Files that cannot be read are left
-/// out.
+/// All names of dielectrics and of n, k tables, including aliases, and all makers' glasses as "maker/glass",
+/// sorted. Files that cannot be read are left out.
 [[nodiscard]] std::vector<std::string> index_names();
-/// All makers' glasses, as "maker/glass", sorted. Files that cannot be read are left out.
 [[nodiscard]] std::vector<std::string> glass_names();
 
 }  // namespace abbe

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -33,14 +32,6 @@ SampledSpectrum sellmeier_index(const DispersionFormula& f, const SampledSpectru
     n2 += SampledSpectrum::map(l2, [=](float x) { return strength * x / (x - pole); });
   }
   return SampledSpectrum::map(n2, [](float x) { return std::sqrt(x); });
-}
-
-// Tabulates a function of wavelength every 1 nm.
-template <typename F>
-Curve each_nm(F quantity) {
-  std::vector<Knot> knots;
-  for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += 1) knots.push_back({nm, quantity(nm)});
-  return Curve(std::move(knots));
 }
 
 // 1/n of air over wavelength, the factor from values relative to vacuum to values relative to air.

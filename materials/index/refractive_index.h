@@ -2,7 +2,9 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "materials/index/dispersion.h"
 #include "spectral/curve.h"
@@ -12,7 +14,15 @@ namespace abbe {
 /// A value of k larger than that of any glass or varnish, smaller than that of any metal.
 inline constexpr double kLargestGlassK = 1e-3;
 
-/// The medium relative to which an index is tabulated.
+/// Tabulates a function of the wavelength [nm] every 1 nm from 300 to 1100 nm.
+template <typename F>
+[[nodiscard]] Curve each_nm(F quantity) {
+  std::vector<Knot> knots;
+  for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += 1) knots.push_back({nm, quantity(nm)});
+  return Curve(std::move(knots));
+}
+
+/// The medium relative to which a tabulated index holds.
 enum class IndexMedium { air, vacuum };
 
 /// An error message if `n` and `k` cannot be a refractive index: n <= 0 or k < 0 somewhere in [300, 1100] nm.
@@ -66,11 +76,9 @@ class RefractiveIndex {
   [[nodiscard]] double absorption_per_m(double wavelength_nm) const;
   [[nodiscard]] SampledSpectrum absorption_per_m(const SampledSpectrum& wavelengths_nm) const;
 
-  /// True if n depends on wavelength.
-  [[nodiscard]] bool dispersive() const;
-  [[nodiscard]] bool absorbing() const;  ///< True if k > 0 somewhere in [300, 1100] nm.
-  /// The medium relative to which the catalogued values hold.
-  [[nodiscard]] IndexMedium medium() const { return medium_; }
+  [[nodiscard]] bool dispersive() const;  ///< True if n depends on wavelength.
+  [[nodiscard]] bool absorbing() const;   ///< True if k > 0 somewhere in [300, 1100] nm.
+  [[nodiscard]] IndexMedium medium() const { return medium_; }  ///< That of the catalogued values.
   /// The range in which n is valid [nm]; 0 to infinity for a constant.
   [[nodiscard]] double low_nm() const { return low_nm_; }
   [[nodiscard]] double high_nm() const { return high_nm_; }

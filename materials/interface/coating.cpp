@@ -4,7 +4,6 @@
 #include <span>
 
 #include "materials/index/relative_index.h"
-#include "materials/interface/mueller.h"
 
 namespace abbe {
 namespace {
@@ -85,8 +84,7 @@ CoatingAt::CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_
   if (outside != nullptr) wavelengths_nm_ = wavelengths_nm / outside->n(wavelengths_nm);
 }
 
-// The medium inside has the index n + ik relative to that outside; light arrives from within if `inside` is
-// true. Rounding errors of many layers are too large in float, so the computation is in double.
+// Rounding errors of many layers are too large in float, so the computation is in double.
 FresnelPower<float> CoatingAt::power(int lane, float n, float k, float cos_i, bool inside) const {
   const auto material = [&](std::uint32_t i) { return Complex<double>{n_[i][lane], k_[i][lane]}; };
   const FresnelPower<double> f =

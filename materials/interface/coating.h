@@ -16,15 +16,13 @@ namespace abbe {
 /// `kMaxMaterials` materials. Without layers the surface is bare. Layers of the same material refer to one
 /// entry of `materials`.
 struct Coating {
-  /// A material of the layers under its name in the scene.
   struct Material {
     std::string index_name;
     RefractiveIndex index;
   };
-  /// A layer of `materials[material]`.
   struct Layer {
-    std::uint32_t material;
-    double thickness_nm;  ///< Above 0.
+    std::uint32_t material;  ///< Index in `materials`.
+    double thickness_nm;     ///< Above 0.
   };
   static constexpr std::size_t kMaxMaterials = 16;
   static constexpr std::size_t kMaxLayers = 256;
@@ -46,23 +44,20 @@ struct Coating {
                                                       double k, double cos_i, bool inside,
                                                       double outside = 1);
 
-/// Amplitude reflection coefficients of the coated surface of `coated_power`, with the same arguments and
-/// with the signs of `FresnelAmplitudes`.
+/// Amplitude reflection coefficients of the coated surface of `coated_power`, with the same arguments.
 [[nodiscard]] FilmReflection<double> coated_reflection(const Coating& coating, double wavelength_nm, double n,
                                                        double k, double cos_i, bool inside,
                                                        double outside = 1);
 
-/// A coating at the wavelengths of a packet [nm in air]. It refers to the coating, which must outlive it. The
-/// constructor looks up its indices once for all wavelengths, relative to the medium `outside`, or to air if
-/// that is nullptr.
+/// A coating at the wavelengths of a packet [nm in air], relative to the medium `outside`, or to air if that
+/// is nullptr. It refers to the coating, which must outlive it.
 class CoatingAt {
  public:
   CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_nm,
             const RefractiveIndex* outside = nullptr);
 
-  /// Reflectance and transmittance at wavelength sample `lane`. The medium inside has the index n + ik
-  /// relative to that outside. Light arrives at an angle of cosine `cos_i` in [0, 1], from within if `inside`
-  /// is true; k is then ignored.
+  /// Reflectance and transmittance at wavelength sample `lane`, as by `coated_power`. n + ik is relative to
+  /// the medium outside.
   [[nodiscard]] FresnelPower<float> power(int lane, float n, float k, float cos_i, bool inside) const;
   /// Mueller matrices of reflection and transmission, with the arguments of `power`.
   [[nodiscard]] InterfaceMueller<float> mueller(int lane, float n, float k, float cos_i, bool inside) const;
@@ -74,7 +69,7 @@ class CoatingAt {
   std::array<SampledSpectrum, Coating::kMaxMaterials> k_;
 };
 
-/// Allowed thickness of a thin film: above 0 and at most 1e5 nm. Thicker layers are not coherent.
+/// Allowed thickness of a thin film. Thicker layers are not coherent.
 inline constexpr Range kFilmThickness{0, 1e5, true, false, "nm"};
 
 }  // namespace abbe

@@ -1,11 +1,11 @@
 #include "materials/interface/fresnel.h"
 
-#include <cmath>
-
 #include <boost/math/quadrature/gauss.hpp>
 
 namespace abbe {
+namespace {
 
+// Diffuse reflectance from the side of lower index; eta >= 1 is the higher index divided by the lower.
 double diffuse_reflectance_outside(double eta) {
   // Near 1 the terms below are as large as 1/(eta - 1)^2 and cancel, so their limit is used.
   if (eta < 1 + 1e-4) return (eta - 1) / 3;
@@ -18,6 +18,8 @@ double diffuse_reflectance_outside(double eta) {
          2 * n2 * eta * (n2 + 2 * eta - 1) / (plus * (n4 - 1)) +
          8 * n4 * (n4 + 1) / (plus * (n4 - 1) * (n4 - 1)) * std::log(eta);
 }
+
+}  // namespace
 
 double diffuse_reflectance_inside(double eta) {
   if (eta < 1) return diffuse_reflectance_outside(1 / eta);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <complex>
 #include <limits>
 
 #include "materials/interface/complex.h"
@@ -19,42 +18,15 @@ struct FresnelPower {
   /// reflection or a conductor.
   T cos_t;
 
-  /// Reflectance for unpolarised light.
+  /// Reflectance and transmittance for unpolarised light.
   [[nodiscard]] T R() const { return (Rs + Rp) * T(0.5); }
-  /// Transmittance for unpolarised light.
   [[nodiscard]] T transmitted() const { return (Ts + Tp) * T(0.5); }
 };
 
 /// Fresnel power of a dielectric interface, eta = n_t/n_i > 0, cos_i in [0, 1]. Total internal reflection
 /// gives R = 1 and T = 0. R and T keep full relative precision however small they are. [Born1999, sec. 1.5]
 template <typename T>
-[[nodiscard]] FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta);
-
-/// Fresnel power of a conductor or absorbing medium of relative index eta + ik, k >= 0, cos_i in [0, 1]. T is
-/// the absorptance, the power that enters the medium. [Born1999, sec. 14.2]
-template <typename T>
-[[nodiscard]] FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k);
-
-/// Normal component of the refracted wave vector, sqrt((eta + ik)^2 - sin_i^2), divided by the wave number in
-/// the medium of incidence. Both parts are 0 or more.
-template <typename T>
-[[nodiscard]] Complex<T> normal_component(const T& cos_i, const T& eta, const T& k);
-
-/// Complex amplitudes of the reflected and transmitted electric fields, divided by the incident one. cos_i is
-/// in [0, 1], eta the relative index, with Im eta > 0 if absorbing. r_p and r_s have opposite signs at normal
-/// incidence. Fields vary in time as exp(-i omega t).
-struct FresnelAmplitudes {
-  std::complex<double> rs, rp, ts, tp;
-};
-[[nodiscard]] inline FresnelAmplitudes fresnel_amplitudes(double cos_i, std::complex<double> eta);
-
-/// Schlick's approximation r0 + (1 - r0) (1 - cos_i)^5 of the reflectance, for comparison only. r0 is the
-/// reflectance along the normal, cos_i in [0, 1]. [Schlick1994]
-template <typename T>
-[[nodiscard]] T schlick(const T& cos_i, const T& r0);
-
-template <typename T>
-FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta) {
+[[nodiscard]] FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta) {
   const T cos_t = refracted_cosine(cos_i, eta);
   if (!(cos_t > T(0))) return {T(1), T(1), T(0), T(0), T(0)};
   // r_s = (c - eta ct)/(c + eta ct) and r_p = (eta c - ct)/(eta c + ct), expanded by their denominators. The
@@ -79,8 +51,10 @@ FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta) {
   return {R(rs, Ts), R(rp, Tp), Ts, Tp, cos_t};
 }
 
+/// Normal component of the refracted wave vector, sqrt((eta + ik)^2 - sin_i^2), divided by the wave number in
+/// the medium of incidence. Both parts are 0 or more.
 template <typename T>
-Complex<T> normal_component(const T& cos_i, const T& eta, const T& k) {
+[[nodiscard]] Complex<T> normal_component(const T& cos_i, const T& eta, const T& k) {
   using std::sqrt;
   using W = typename Wider<T>::type;
   // a + ib = sqrt(z), z = (eta + ik)^2 - sin_i^2. The larger of a and b comes from a sum, the other from
@@ -96,8 +70,10 @@ Complex<T> normal_component(const T& cos_i, const T& eta, const T& k) {
   return {a, b};
 }
 
+/// Fresnel power of a conductor or absorbing medium of relative index eta + ik, k >= 0, cos_i in [0, 1]. T is
+/// the absorptance, the power that enters the medium. [Born1999, sec. 14.2]
 template <typename T>
-FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k) {
+[[nodiscard]] FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k) {
   const auto [a, b] = normal_component(cos_i, eta, k);
   const T& c = cos_i;
   const T sin2 = (T(1) - c) * (T(1) + c);
@@ -112,28 +88,18 @@ FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k) {
   return {Rs, Rs * ratio, As, As + T(4) * Rs * a * c * sin2 / p, T(0)};
 }
 
-FresnelAmplitudes fresnel_amplitudes(double cos_i, std::complex<double> eta) {
-  const double sin_i = std::sqrt((1 - cos_i) * (1 + cos_i));
-  const std::complex<double> g =
-      std::sqrt((eta - sin_i) * (eta + sin_i));  // eta cos_t, decaying into the medium
-  const std::complex<double> p = eta * eta * cos_i;
-  return {(cos_i - g) / (cos_i + g), (p - g) / (p + g), 2 * cos_i / (cos_i + g), 2.0 * eta * cos_i / (p + g)};
-}
-
+/// Schlick's approximation r0 + (1 - r0) (1 - cos_i)^5 of the reflectance, for comparison only. r0 is the
+/// reflectance along the normal, cos_i in [0, 1]. [Schlick1994]
 template <typename T>
-T schlick(const T& cos_i, const T& r0) {
+[[nodiscard]] T schlick(const T& cos_i, const T& r0) {
   const T m = T(1) - cos_i;
   const T m2 = m * m;
   return r0 + (T(1) - r0) * (m2 * m2 * m);
 }
 
-/// Diffuse reflectance of a smooth interface from the side of lower index: 2 int_0^1 R(c) c dc with R the
-/// mean over s and p. eta >= 1 is the higher index divided by the lower. Accurate to 1e-7. [Judd1942]
-[[nodiscard]] double diffuse_reflectance_outside(double eta);
-
-/// Diffuse reflectance from inside a medium of index eta relative to the outside, including total internal
-/// reflection. Any eta > 0 is allowed. Diffuse transmission from outside is eta^2 times that from inside, so
-/// 1 - r_inside = (1 - r_outside)/eta^2. [Judd1942]
+/// Diffuse reflectance 2 int_0^1 R(c) c dc from inside a medium of index eta > 0 relative to the outside,
+/// including total internal reflection; R is the mean over s and p. Diffuse transmission from outside is
+/// eta^2 times that from inside, so 1 - r_inside = (1 - r_outside)/eta^2. Accurate to 1e-7. [Judd1942]
 [[nodiscard]] double diffuse_reflectance_inside(double eta);
 
 /// Diffuse reflectance of a smooth interface to a medium of index n + ik, relative to the outside, from which

@@ -32,7 +32,6 @@ struct Microfacets {
   FacetShape shape = FacetShape::ggx;
   T alpha_x, alpha_y;
 
-  /// True if the surface is anisotropic.
   [[nodiscard]] bool brushed() const { return alpha_x != alpha_y; }
 
   /// Normal distribution: area of the facets of normal h per surface area [1/sr]. The integral of D h.z is 1.
@@ -175,7 +174,6 @@ struct RefractingFacet {
     cos_i = -m.dot(Imath::V3d(i)) * upward;
     m2 = m.length2();
   }
-  /// True if a facet refracts o into i.
   [[nodiscard]] bool exists() const { return cos_o > 0 && cos_i > 0 && m.z != 0; }
   /// Cosine between the facet normal and the one of o and i that is on the side of lower index. The facet
   /// must exist.

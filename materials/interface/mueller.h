@@ -40,8 +40,7 @@ template <typename T>
 inline constexpr MuellerElements<T> kIdealMirror{T(0), T(1), T(-1), T(0)};
 
 /// Elements from the powers `S` and `P` perpendicular to the plane of incidence and in it. `sp` is the mean
-/// of s p* over all contributions that add without interference. Returns the elements of the identity if the
-/// power is zero.
+/// of s p* over all contributions that add without interference. Zero power gives the identity.
 template <typename T>
 [[nodiscard]] MuellerElements<T> mueller_elements(const T& S, const T& P, const Complex<T>& sp) {
   const T sum = S + P;
@@ -64,7 +63,6 @@ class MuellerMean {
   /// Adds a contribution that depolarises.
   void add_unpolarised(const T& power) { power_ += power; }
 
-  /// The weighted mean of all contributions.
   [[nodiscard]] MuellerElements<T> mean() const {
     return {quotient(sum_.d, power_), quotient(sum_.p, power_), quotient(sum_.c, power_),
             quotient(sum_.s, power_)};
@@ -168,16 +166,15 @@ template <typename T>
   return {T(2) * less * sum / squares, T(1), T(1) - T(2) * less * less / squares, T(0)};
 }
 
-/// Mueller elements of a linear polariser about its axis. `blocked` is the transmittance perpendicular to the
-/// axis divided by that along it, in [0, 1].
+/// Mueller elements of a linear polariser (`PolariserBsdf`) about its axis.
 template <typename T>
 [[nodiscard]] MuellerElements<T> polariser_mueller(const T& blocked) {
   using std::sqrt;
   return mueller_elements(T(1), blocked, Complex<T>{sqrt(blocked), T(0)});
 }
 
-/// Mueller elements of a wave plate with a retardance [rad] about its fast axis. Fields perpendicular to the
-/// fast axis are retarded, so their phase is larger.
+/// Mueller elements of a wave plate with a retardance [rad] about its fast axis. Fields perpendicular to it
+/// are retarded, so their phase is larger.
 template <typename T>
 [[nodiscard]] MuellerElements<T> wave_plate_mueller(const T& retardance) {
   using std::cos;

@@ -13,18 +13,6 @@ template <typename T>
   return n * (2 * wo.dot(n)) - wo;
 }
 
-/// Cosine of the refracted angle for cos_i in [0, 1] and eta = n_t/n_i; 0 for total internal reflection. It
-/// is exactly cos_i for eta = 1.
-template <typename T>
-[[nodiscard]] T refracted_cosine(const T& cos_i, const T& eta);
-
-/// Direction of the refracted ray, pointing away from the surface on the side opposite to the unit vector
-/// `wo`. The unit normal n points to the side of wo, n.wo > 0, and eta = n_t/n_i. Empty for total internal
-/// reflection. [Marschner2021, sec. 14.1]
-template <typename T>
-[[nodiscard]] std::optional<Imath::Vec3<T>> refract(const Imath::Vec3<T>& wo, const Imath::Vec3<T>& n,
-                                                    const T& eta);
-
 /// The type in which to subtract nearly equal squares: the next wider type, or T itself if there is none
 /// (dual numbers).
 template <typename T>
@@ -67,15 +55,21 @@ template <typename T>
   return which ? yes : no;
 }
 
+/// Cosine of the refracted angle for cos_i in [0, 1] and eta = n_t/n_i; 0 for total internal reflection. It
+/// is exactly cos_i for eta = 1.
 template <typename T>
-T refracted_cosine(const T& cos_i, const T& eta) {
+[[nodiscard]] T refracted_cosine(const T& cos_i, const T& eta) {
   using std::sqrt;
   const auto d = refraction_radicand(cos_i, eta);
   return d > decltype(d)(0) ? T(sqrt(d) / eta) : T(0);
 }
 
+/// Direction of the refracted ray, pointing away from the surface on the side opposite to the unit vector
+/// `wo`. The unit normal n points to the side of wo, n.wo > 0, and eta = n_t/n_i. Empty for total internal
+/// reflection. [Marschner2021, sec. 14.1]
 template <typename T>
-std::optional<Imath::Vec3<T>> refract(const Imath::Vec3<T>& wo, const Imath::Vec3<T>& n, const T& eta) {
+[[nodiscard]] std::optional<Imath::Vec3<T>> refract(const Imath::Vec3<T>& wo, const Imath::Vec3<T>& n,
+                                                    const T& eta) {
   const T cos_i = n.dot(wo);
   const T cos_t = refracted_cosine(cos_i, eta);
   if (!(cos_t > T(0))) return std::nullopt;

@@ -23,35 +23,13 @@ struct FilmLayer {
   [[nodiscard]] bool operator==(const FilmLayer&) const = default;
 };
 
-/// Reflectance and transmittance of coherent layers on a substrate of relative index eta + ik, cos_i in [0,
-/// 1]. `layers` are ordered from the side of incidence. T is the power that enters the substrate, so the
-/// layers absorb 1 - R - T. cos_t is that of the substrate, 0 if k > 0. Without layers the result is that of
-/// the bare interface.
-///
-/// The fields at each boundary follow from the characteristic matrices of the layers [Born1999, sec. 1.6]
-/// [Macleod2010, sec. 2.6]. The method is stable for any absorption and at all angles, also above the
-/// critical ones.
-template <typename T>
-[[nodiscard]] FresnelPower<T> film_power(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta,
-                                         const T& k);
-
-/// Amplitude reflection coefficients of coherent layers on a substrate, with the signs of
-/// `FresnelAmplitudes`.
+/// Amplitude reflection coefficients of coherent layers on a substrate: the reflected electric field divided
+/// by the incident one. s and p have opposite signs at normal incidence. Fields vary in time as
+/// exp(-i omega t).
 template <typename T>
 struct FilmReflection {
   Complex<T> s, p;
 };
-/// Amplitude reflection coefficients, with the arguments of `film_power`.
-template <typename T>
-[[nodiscard]] FilmReflection<T> film_reflection(const T& cos_i, std::span<const FilmLayer<T>> layers,
-                                                const T& eta, const T& k);
-
-/// Mueller matrices of reflection and transmission, with the arguments of `film_power`. The matrix of
-/// transmission holds for a transparent substrate.
-template <typename T>
-[[nodiscard]] InterfaceMueller<T> film_mueller(const T& cos_i, std::span<const FilmLayer<T>> layers,
-                                               const T& eta, const T& k);
-
 namespace film {
 
 /// Characteristic matrix of a layer for one polarisation, with tilted admittance `kappa` and phase d: cos d,
@@ -91,8 +69,8 @@ struct Waves {
       : arriving(scaled(at.u, kappa_i) + at.v), reflected(scaled(at.u, kappa_i) + scaled(at.v, T(-1))) {}
 };
 
-/// R and T, in this order, from the fields at the first boundary; `kappa_i` is the cosine of incidence,
-/// `kappa_t` is the real part of the substrate's admittance.
+/// R and T, in this order; `kappa_i` is the cosine of incidence, `kappa_t` the real part of the substrate's
+/// admittance.
 template <typename T>
 std::pair<T, T> powers(const Fields<T>& at, const T& kappa_i, const T& kappa_t) {
   const Waves<T> waves(at, kappa_i);
@@ -106,7 +84,6 @@ struct Crossing {
   Matrix<T> s, p;
   T decay;
 };
-/// Matrices of a layer for light at the cosine `cos_i` in the medium of incidence.
 template <typename T>
 Crossing<T> crossing_of(const T& cos_i, const FilmLayer<T>& layer) {
   using std::cos;
@@ -139,7 +116,6 @@ struct Stack {
   Fields<T> s, p;
   Complex<T> q_t, p_t;
 };
-/// Fields of the stack, with the arguments of `film_power`.
 template <typename T>
 Stack<T> stack(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta, const T& k) {
   const Complex<T> one{T(1), T(0)};
@@ -162,26 +138,38 @@ Stack<T> stack(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& et
 
 }  // namespace film
 
+/// Reflectance and transmittance of coherent layers on a substrate of relative index eta + ik, cos_i in [0,
+/// 1]. `layers` are ordered from the side of incidence. T is the power that enters the substrate, so the
+/// layers absorb 1 - R - T. cos_t is that of the substrate, 0 if k > 0. Without layers the result is that of
+/// the bare interface.
+///
+/// The fields at each boundary follow from the characteristic matrices of the layers [Born1999, sec. 1.6]
+/// [Macleod2010, sec. 2.6]. The method is stable for any absorption and at all angles, also above the
+/// critical ones.
 template <typename T>
-FresnelPower<T> film_power(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta, const T& k) {
+[[nodiscard]] FresnelPower<T> film_power(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta,
+                                         const T& k) {
   const film::Stack<T> at = film::stack(cos_i, layers, eta, k);
   const auto [Rs, Ts] = film::powers(at.s, cos_i, at.q_t.re);
   const auto [Rp, Tp] = film::powers(at.p, cos_i, at.p_t.re);
   return {Rs, Rp, Ts, Tp, k > T(0) ? T(0) : refracted_cosine(cos_i, eta)};
 }
 
+/// Amplitude reflection coefficients, with the arguments of `film_power`.
 template <typename T>
-FilmReflection<T> film_reflection(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta,
-                                  const T& k) {
+[[nodiscard]] FilmReflection<T> film_reflection(const T& cos_i, std::span<const FilmLayer<T>> layers,
+                                                const T& eta, const T& k) {
   const film::Stack<T> at = film::stack(cos_i, layers, eta, k);
   const film::Waves<T> s(at.s, cos_i);
   const film::Waves<T> p(at.p, cos_i);
   return {s.reflected / s.arriving, p.reflected / p.arriving};
 }
 
+/// Mueller matrices of reflection and transmission, with the arguments of `film_power`. The matrix of
+/// transmission holds for a transparent substrate.
 template <typename T>
-InterfaceMueller<T> film_mueller(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta,
-                                 const T& k) {
+[[nodiscard]] InterfaceMueller<T> film_mueller(const T& cos_i, std::span<const FilmLayer<T>> layers,
+                                               const T& eta, const T& k) {
   using std::sqrt;
   const film::Stack<T> at = film::stack(cos_i, layers, eta, k);
   const film::Waves<T> s(at.s, cos_i);

@@ -6,24 +6,6 @@
 
 namespace abbe {
 
-/// Reflectance and transmittance of a plane sheet with the same medium on both sides, cos_i in [0, 1]. The
-/// sheet is transparent or absorbs. `eta` is its index relative to the medium outside, `depth` its optical
-/// depth along the normal, 0 or more. The reflections between the faces add up without interference, for s
-/// and p separately:
-///
-///   R = r + t^2 r a^2/(1 - r^2 a^2),  T = t^2 a/(1 - r^2 a^2).
-///
-/// r + t = 1 holds at one face, and a = e^(-depth/cos_t) is the transmittance of one passage at the angle
-/// inside. Transmitted light is not deflected, so the result's cos_t is cos_i; it is 0 if nothing enters.
-/// [Stokes1862]
-template <typename T>
-[[nodiscard]] FresnelPower<T> sheet_power(const T& cos_i, const T& eta, const T& depth);
-
-/// Mueller matrices of the sheet of `sheet_power`, with the same arguments. The products r_s r_p* and t_s
-/// t_p* of the faces add up like their powers, because the orders do not interfere.
-template <typename T>
-[[nodiscard]] InterfaceMueller<T> sheet_mueller(const T& cos_i, const T& eta, const T& depth);
-
 /// R (`reflected`) and T (`passed`) of the sheet from r and t of its faces and the transmittance a of one
 /// passage.
 template <typename T>
@@ -35,8 +17,17 @@ struct SheetOrders {
   }
 };
 
+/// Reflectance and transmittance of a plane sheet with the same medium on both sides, cos_i in [0, 1]. `eta`
+/// is its index relative to the medium outside, `depth` its optical depth along the normal, 0 or more. The
+/// reflections between the faces add up without interference, for s and p separately:
+///
+///   R = r + t^2 r a^2/(1 - r^2 a^2),  T = t^2 a/(1 - r^2 a^2).
+///
+/// r + t = 1 holds at one face, and a = e^(-depth/cos_t) is the transmittance of one passage at the angle
+/// inside. Transmitted light is not deflected, so the result's cos_t is cos_i; it is 0 if nothing enters.
+/// [Stokes1862]
 template <typename T>
-FresnelPower<T> sheet_power(const T& cos_i, const T& eta, const T& depth) {
+[[nodiscard]] FresnelPower<T> sheet_power(const T& cos_i, const T& eta, const T& depth) {
   using std::exp;
   const FresnelPower<T> f = fresnel_dielectric(cos_i, eta);
   if (!(f.cos_t > T(0))) return f;
@@ -46,8 +37,10 @@ FresnelPower<T> sheet_power(const T& cos_i, const T& eta, const T& depth) {
   return {s.reflected, p.reflected, s.passed, p.passed, cos_i};
 }
 
+/// Mueller matrices of the sheet of `sheet_power`, with the same arguments. The products r_s r_p* and t_s
+/// t_p* of the faces add up like their powers, because the orders do not interfere.
 template <typename T>
-InterfaceMueller<T> sheet_mueller(const T& cos_i, const T& eta, const T& depth) {
+[[nodiscard]] InterfaceMueller<T> sheet_mueller(const T& cos_i, const T& eta, const T& depth) {
   using std::exp;
   using std::sqrt;
   const FresnelPower<T> f = fresnel_dielectric(cos_i, eta);

@@ -40,8 +40,8 @@ struct PlacedGrid {
                                   float column) const;
 };
 
-/// A medium that absorbs and scatters light along its path. `absorption_per_m` and `scattering_per_m` are its
-/// coefficients of absorption and scattering [1/m] over the wavelength in air [nm].
+/// A medium that absorbs and scatters light along its path, with coefficients over the wavelength in air
+/// [nm].
 struct Medium {
   Curve absorption_per_m = Curve(0.0);  ///< 0 or more.
   Curve scattering_per_m = Curve(0.0);  ///< 0 or more.

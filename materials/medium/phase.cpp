@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <numbers>
 
 namespace abbe {
@@ -43,32 +42,10 @@ float draw_versine(const RayleighPhase& /*phase*/, float u) {
   return 1 - 2 * std::sinh(std::asinh(2 - 4 * u) / 3);
 }
 
-bool is_backward(const IsotropicPhase& /*phase*/) {
-  return false;
-}
-bool is_backward(const HenyeyGreensteinPhase& phase) {
-  return phase.g < 0;
-}
-bool is_backward(const RayleighPhase& /*phase*/) {
-  return false;
-}
-
-// Interface of the phase functions: the pdf, the inverse cumulative distribution, and true if both measure
-// the versine from the opposite direction.
-template <typename Phase>
-concept PhaseModel = requires(const Phase& phase, float x) {
-  { density(phase, x) } -> std::same_as<float>;
-  { draw_versine(phase, x) } -> std::same_as<float>;
-  { is_backward(phase) } -> std::same_as<bool>;
-};
-template <typename List>
-constexpr bool kAllPhaseModels = false;
-template <typename... Phases>
-constexpr bool kAllPhaseModels<std::variant<Phases...>> = (PhaseModel<Phases> && ...);
-static_assert(kAllPhaseModels<PhaseFunction>);
-
+// True if pdf and versine are measured from the opposite direction.
 bool is_backward(const PhaseFunction& phase) {
-  return std::visit([](const auto& p) { return is_backward(p); }, phase);
+  const auto* peaked = std::get_if<HenyeyGreensteinPhase>(&phase);
+  return peaked != nullptr && peaked->g < 0;
 }
 
 }  // namespace

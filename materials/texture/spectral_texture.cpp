@@ -1,7 +1,6 @@
 #include "materials/texture/spectral_texture.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "io/error.h"
 
@@ -11,6 +10,13 @@ SpectralTexture::SpectralTexture(TextureImage image, std::vector<Curve> spectra)
     : image_(std::make_shared<const Weighted>(Weighted{std::move(image), std::move(spectra)})) {
   if (image_->spectra.size() != image_->image.channels())
     throw Error(ErrorCode::internal, "texture", "a spectrum is needed for each channel");
+}
+
+std::optional<double> SpectralTexture::at(double wavelength_nm, std::optional<Imath::V2f> coordinates) const {
+  if (!textured()) return curve_(wavelength_nm);
+  if (!coordinates) return std::nullopt;
+  const SampledSpectrum wavelengths_nm(static_cast<float>(wavelength_nm));
+  return of_image({wavelengths_nm, *coordinates})[0];
 }
 
 SampledSpectrum SpectralTexture::of_image(const SurfaceLookup& at) const {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,6 @@ namespace abbe {
 /// the channels of an image.
 class SpectralTexture {
  public:
-  /// A quantity that is uniform over the surface.
   SpectralTexture(Curve curve) : curve_(std::move(curve)) {}
   /// The sum over channels c of the image of (value of c) * spectra[c]. Throws Error{internal} unless each
   /// channel has a spectrum.
@@ -26,8 +26,10 @@ class SpectralTexture {
     return image_ ? of_image(at) : curve_(at.wavelengths_nm);
   }
 
-  /// True if the quantity varies over the surface.
-  [[nodiscard]] bool textured() const { return image_ != nullptr; }
+  /// The value at one wavelength [nm]; empty if `textured` and the coordinates are unknown.
+  [[nodiscard]] std::optional<double> at(double wavelength_nm, std::optional<Imath::V2f> coordinates) const;
+
+  [[nodiscard]] bool textured() const { return image_ != nullptr; }  ///< True if it varies over the surface.
   /// The uniform value; zero if `textured`.
   [[nodiscard]] const Curve& curve() const { return curve_; }
   /// Size of the image in bytes; 0 without an image.

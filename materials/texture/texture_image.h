@@ -9,7 +9,7 @@
 
 namespace abbe {
 
-/// Interpolation between texel centres: `bilinear`, or the value of the `nearest` texel.
+/// Interpolation between texel centres, or the value of the `nearest` texel.
 enum class TextureFilter { bilinear, nearest };
 /// Extension of the image outside its edges: `repeat` tiles it, `clamp` continues the values of the edge.
 enum class TextureWrap { repeat, clamp };
@@ -38,7 +38,6 @@ class TextureImage {
     std::array<std::size_t, 4> texel;
     std::array<float, 4> weight;
   };
-  /// The blend at surface coordinates.
   [[nodiscard]] Blend blend(const Imath::V2f& uv) const { return blend_at(on_image(uv)); }
   /// Interpolated value of a channel, counted from 0; the channel must exist.
   [[nodiscard]] float value(const Blend& blend, std::size_t channel) const {
@@ -73,7 +72,7 @@ class TextureImage {
 struct NormalMap {
   TextureImage image;
 
-  /// The unit normal at `uv`, in the axes dp/du, dp/dv and the outward normal.
+  /// The unit normal in these axes.
   [[nodiscard]] Imath::V3d normal(const Imath::V2f& uv) const;
 };
 

@@ -14,19 +14,13 @@ Imath::V3f moved_point(const Imath::V3f& point, const Imath::M44d& by) {
   return Imath::V3f(Imath::V3d(point) * by);
 }
 
-Imath::V3d turned_direction(const Imath::V3d& direction, const Imath::M44d& by) {
-  Imath::V3d moved;
-  by.multDirMatrix(direction, moved);
-  return moved;
-}
-
 Ray moved_ray(const Ray& ray, const Imath::M44d& by) {
-  return {moved_point(ray.origin, by), Imath::V3f(turned_direction(Imath::V3d(ray.direction), by)), ray.t_max,
+  return {moved_point(ray.origin, by), Imath::V3f(moved_direction(Imath::V3d(ray.direction), by)), ray.t_max,
           ray.time};
 }
 
 void turn(std::optional<WavelengthImages>& images, const Imath::M44d& by) {
-  if (images) images->jones.axis = Imath::V3f(turned_direction(Imath::V3d(images->jones.axis), by));
+  if (images) images->jones.axis = Imath::V3f(moved_direction(Imath::V3d(images->jones.axis), by));
 }
 
 Imath::M44d motion_until(const Camera& camera, float time) {
@@ -105,11 +99,9 @@ std::vector<WeightedAngle> angles_over_lens(const Camera& camera, Imath::V2f fil
 
 CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens,
                      const SampledSpectrum& wavelengths_nm, int hero, float time) {
-  CameraRay ray = std::visit(
-      [&](const auto& kind) {
-        return kind.sample_ray(camera.film(), film, lens, wavelengths_nm, hero, time);
-      },
-      camera.kind);
+  const CameraSample sample{film, lens, wavelengths_nm, hero, time};
+  CameraRay ray =
+      std::visit([&](const auto& kind) { return kind.sample_ray(camera.film(), sample); }, camera.kind);
   if (camera.motion) move(ray, camera, time);
   return ray;
 }
@@ -130,12 +122,10 @@ void sample_rays(const Camera& camera, std::span<const CameraSample> samples, st
 
 std::optional<CameraConnection> sample_towards(const Camera& camera, const Imath::V3f& point, Imath::V2f lens,
                                                const SampledSpectrum& wavelengths_nm, float time) {
+  const CameraSample sample{{0, 0}, lens, wavelengths_nm, 0, time};
   const auto connect = [&](const Imath::V3f& at_rest) {
-    return std::visit(
-        [&](const auto& kind) {
-          return kind.sample_towards(camera.film(), at_rest, lens, wavelengths_nm, time);
-        },
-        camera.kind);
+    return std::visit([&](const auto& kind) { return kind.sample_towards(camera.film(), at_rest, sample); },
+                      camera.kind);
   };
   if (!camera.motion) return connect(point);
   const Imath::M44d since_opening = motion_until(camera, time);
@@ -176,7 +166,7 @@ std::optional<GhostEntrance> sample_ghost(const Camera& camera, Imath::V2f lens,
   if (!camera.motion || !entrance) return entrance;
   const Imath::M44d since_opening = motion_until(camera, time);
   entrance->point = moved_point(entrance->point, since_opening);
-  entrance->normal = Imath::V3f(turned_direction(Imath::V3d(entrance->normal), since_opening));
+  entrance->normal = Imath::V3f(moved_direction(Imath::V3d(entrance->normal), since_opening));
   return entrance;
 }
 
@@ -190,7 +180,7 @@ Ray ray_in_rest_frame(const Camera& camera, const Ray& ray) {
 }
 
 Imath::V3d direction_at(const Camera& camera, const Imath::V3d& direction, float time) {
-  return camera.motion ? turned_direction(direction, motion_until(camera, time)) : direction;
+  return camera.motion ? moved_direction(direction, motion_until(camera, time)) : direction;
 }
 
 double min_film_cosine(const Camera& camera) {
@@ -235,7 +225,7 @@ Imath::Box3d bounds(const Camera& camera) {
 Imath::V3f probe_point(const Camera& probe, Imath::V2f uv) {
   const FilmGrid film = probe.film();
   const Imath::V2f at(uv.x * static_cast<float>(film.width), uv.y * static_cast<float>(film.height));
-  return std::get<IrradianceProbe>(probe.kind).sample_ray(film, at, {0.5F, 0.5F}, {}, 0, 0).ray.origin;
+  return std::get<IrradianceProbe>(probe.kind).sample_ray(film, {at, {0.5F, 0.5F}, {}}).ray.origin;
 }
 
 std::optional<Imath::V3f> film_right(const Camera& camera, float time) {

@@ -89,15 +89,6 @@ void translate(Camera& camera, const Imath::V3d& by);
 /// sampling. 0 if the lens blocks the ray.
 [[nodiscard]] double central_weight(const Camera& camera, Imath::V2f film);
 
-/// Arguments of `CameraModel::sample_ray`.
-struct CameraSample {
-  Imath::V2f film;  ///< Film position [pixels] from the top left corner.
-  Imath::V2f lens;  ///< Two random numbers in [0, 1).
-  SampledSpectrum wavelengths_nm;
-  int hero = 0;    ///< Index of the hero in `wavelengths_nm`.
-  float time = 0;  ///< Fraction of the exposure.
-};
-
 /// Calls `sample_ray` for each sample, at lower cost for a lens system. `rays` has as many elements as
 /// `samples`. The origin, direction and time of a ray of zero weight are arbitrary.
 void sample_rays(const Camera& camera, std::span<const CameraSample> samples, std::span<CameraRay> rays);

@@ -254,14 +254,18 @@ EntrancePoint first_surface_point(const LensSystem& camera, const V2d& local, Le
           -from_lens(camera.frame, at.normal), route_probability(camera, route) * at.cos_axis / area};
 }
 
+// A point of the entrance pupil, on the route of the image.
+EntrancePoint pupil_point(const LensSystem& camera, const V3d& point) {
+  const double radius = camera.optics->pupil.entrance().radius / kMmPerM;
+  return {point, camera.frame.forward, route_probability(camera, 0) / disc_area(radius)};
+}
+
 EntrancePoint draw_entrance(const LensSystem& camera, const V2f& u, LensRoute route) {
   const V2d disc(concentric_disc(u));
   if (route > 0) return first_surface_point(camera, disc * camera.optics->semi_aperture_mm(0), route);
-  const double radius = camera.optics->pupil.entrance().radius / kMmPerM;
-  const V2d on_disc = disc * radius;
-  return {on_axis(camera, camera.optics->pupil.entrance().z) + camera.frame.right * on_disc.x +
-              camera.frame.up * on_disc.y,
-          camera.frame.forward, route_probability(camera, route) / disc_area(radius)};
+  const V2d on_disc = disc * (camera.optics->pupil.entrance().radius / kMmPerM);
+  const V3d center = on_axis(camera, camera.optics->pupil.entrance().z);
+  return pupil_point(camera, center + camera.frame.right * on_disc.x + camera.frame.up * on_disc.y);
 }
 
 // The entrance for a point that has been sampled in this way.
@@ -270,8 +274,7 @@ EntrancePoint entrance_at(const LensSystem& camera, const V3d& point, LensRoute 
     const V3d in_lens = to_lens(camera.frame, point - camera.frame.position) * kMmPerM;
     return first_surface_point(camera, camera.optics->system.local_of(0, in_lens), route);
   }
-  const double radius = camera.optics->pupil.entrance().radius / kMmPerM;
-  return {point, camera.frame.forward, route_probability(camera, route) / disc_area(radius)};
+  return pupil_point(camera, point);
 }
 
 // A route, sampled by one of the random numbers for a point, and the number rescaled for reuse. The image
@@ -350,16 +353,15 @@ CameraRay dark_ray(const LensSystem& camera, const FilmGrid& grid, const CameraS
 
 }  // namespace
 
-CameraRay LensSystem::sample_ray(const FilmGrid& grid, V2f film, V2f lens,
-                                 const SampledSpectrum& wavelengths_nm, int hero, float time) const {
-  const CameraSample sample{film, lens, wavelengths_nm, hero, time};
-  const auto [route, u] = draw_route(*this, lens);
-  const auto out =
-      optics->system.to_object(from_film(*this, image_of_film(grid, film), V2d(concentric_disc(u)), route),
-                               static_cast<double>(wavelengths_nm[hero]), optics->routes[route]);
+CameraRay LensSystem::sample_ray(const FilmGrid& grid, const CameraSample& sample) const {
+  const auto [route, u] = draw_route(*this, sample.lens);
+  const auto out = optics->system.to_object(
+      from_film(*this, image_of_film(grid, sample.film), V2d(concentric_disc(u)), route),
+      static_cast<double>(sample.wavelengths_nm[sample.hero]), optics->routes[route]);
   if (!out) return dark_ray(*this, grid, sample);
-  const Ray ray = in_scene(*this, *out, route, time);
-  const auto drawn = camera_ray(sample, route, ray, trace_to_film(*this, grid, {ray, wavelengths_nm}, route));
+  const Ray ray = in_scene(*this, *out, route, sample.time);
+  const auto drawn =
+      camera_ray(sample, route, ray, trace_to_film(*this, grid, {ray, sample.wavelengths_nm}, route));
   return drawn ? *drawn : dark_ray(*this, grid, sample);
 }
 
@@ -369,12 +371,12 @@ void sample_rays(const LensSystem& camera, const FilmGrid& grid, std::span<const
   std::vector<lens::ColouredRay> of_image;
   std::vector<std::size_t> sample_of;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto& [film, lens, wavelengths_nm, hero, time] = samples[i];
-    const auto [route, u] = draw_route(camera, lens);
-    rays[i] = route > 0 ? camera.sample_ray(grid, film, lens, wavelengths_nm, hero, time) : dark;
+    const CameraSample& sample = samples[i];
+    const auto [route, u] = draw_route(camera, sample.lens);
+    rays[i] = route > 0 ? camera.sample_ray(grid, sample) : dark;
     if (route > 0) continue;
-    of_image.push_back({from_film(camera, image_of_film(grid, film), V2d(concentric_disc(u)), route),
-                        static_cast<double>(wavelengths_nm[hero])});
+    of_image.push_back({from_film(camera, image_of_film(grid, sample.film), V2d(concentric_disc(u)), route),
+                        static_cast<double>(sample.wavelengths_nm[sample.hero])});
     sample_of.push_back(i);
   }
   std::vector<std::size_t> sample_of_ray;  // index of the sample of each ray in `out`
@@ -394,10 +396,9 @@ void sample_rays(const LensSystem& camera, const FilmGrid& grid, std::span<const
   }
 }
 
-std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid, const V3f& point, V2f lens,
-                                                           const SampledSpectrum& wavelengths_nm,
-                                                           float time) const {
-  const auto [route, u] = draw_route(*this, lens);
+std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid, const V3f& point,
+                                                           const CameraSample& sample) const {
+  const auto [route, u] = draw_route(*this, sample.lens);
   const EntrancePoint entrance = draw_entrance(*this, u, route);
   const V3d to_point = V3d(point) - entrance.point;
   const double distance = to_point.length();
@@ -407,8 +408,8 @@ std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid,
   const double from_disc = behind / cos_theta;  // from the disc to the lens point, along the ray
   const V3f lens_point(entrance.point + to_point / distance * from_disc);
   const double farther = distance / (distance - from_disc);
-  const auto lanes =
-      trace_to_film(*this, grid, {ray_at(lens_point, V3f(to_point / distance), time), wavelengths_nm}, route);
+  const auto lanes = trace_to_film(
+      *this, grid, {ray_at(lens_point, V3f(to_point / distance), sample.time), sample.wavelengths_nm}, route);
   if (!lanes) return std::nullopt;
   const double weight =
       cos_theta / (entrance.pdf * distance * distance * grid.pixel_pitch * grid.pixel_pitch);

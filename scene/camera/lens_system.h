@@ -17,12 +17,9 @@ struct LensSystem {
   /// True if rays also take the routes of ghosts; the optics must have them enumerated.
   bool ghosts = false;
 
-  [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f lens,
-                                     const SampledSpectrum& wavelengths_nm, int hero, float time) const;
+  [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, const CameraSample& sample) const;
   [[nodiscard]] std::optional<CameraConnection> sample_towards(const FilmGrid& grid, const Imath::V3f& point,
-                                                               Imath::V2f lens,
-                                                               const SampledSpectrum& wavelengths_nm,
-                                                               float time) const;
+                                                               const CameraSample& sample) const;
   [[nodiscard]] std::optional<CameraDensity> density(const FilmGrid& grid, const Ray& ray,
                                                      const SampledSpectrum& wavelengths_nm,
                                                      LensRoute route) const;

@@ -47,6 +47,15 @@ struct FilmGrid {
   double pixel_pitch = 1;  ///< [m]
 };
 
+/// A film position, and what is sampled besides it.
+struct CameraSample {
+  Imath::V2f film;  ///< Film position [pixels] from the top left corner.
+  Imath::V2f lens;  ///< Two random numbers in [0, 1).
+  SampledSpectrum wavelengths_nm;
+  int hero = 0;    ///< Index of the hero in `wavelengths_nm`.
+  float time = 0;  ///< Fraction of the exposure.
+};
+
 /// Effect of a lens on polarised light: per wavelength the Jones matrix [[xx, xy], [yx, yy]], divided by the
 /// square root of the transmittance for unpolarised light. It maps from the frame of `axis`, which is
 /// perpendicular to the ray in the scene, to the frame of the film. The latter's x axis is the picture's
@@ -166,16 +175,14 @@ struct CameraTraits {
 /// `hero` is the index of a wavelength. The time is a fraction of the exposure; see `BasicRay`. Models do not
 /// move; they only copy it. None of the functions throws.
 template <typename Model>
-concept CameraModel = requires(const Model& camera, Model& movable, const FilmGrid& film, Imath::V2f u,
-                               const Ray& ray, const SampledSpectrum& wavelengths_nm, int hero, float time,
-                               LensRoute route) {
+concept CameraModel = requires(const Model& camera, Model& movable, const FilmGrid& film,
+                               const CameraSample& sample, const Ray& ray,
+                               const SampledSpectrum& wavelengths_nm, LensRoute route) {
   /// Samples the ray of a film position; with a dispersive lens it is that of the hero wavelength.
-  { camera.sample_ray(film, u, u, wavelengths_nm, hero, time) } -> std::same_as<CameraRay>;
-  /// Connects a point to the film; nothing if the point is behind the lens, its image falls outside the film
-  /// or the lens blocks the ray, and for probes always.
-  {
-    camera.sample_towards(film, ray.origin, u, wavelengths_nm, time)
-    } -> std::same_as<std::optional<CameraConnection>>;
+  { camera.sample_ray(film, sample) } -> std::same_as<CameraRay>;
+  /// Connects a point to the film, whatever `sample.film` and `sample.hero`. Nothing if the point is behind
+  /// the lens, its image falls outside the film or the lens blocks the ray, and for probes always.
+  { camera.sample_towards(film, ray.origin, sample) } -> std::same_as<std::optional<CameraConnection>>;
   /// Density of a ray that starts on the lens or probe, leads into the scene and takes that route. Nothing if
   /// `sample_ray` cannot produce it: its film position is outside the film, it leads backwards, the lens
   /// blocks it, or a probe does not accept it.

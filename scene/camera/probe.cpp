@@ -11,49 +11,58 @@
 namespace abbe {
 namespace {
 
-// Area-preserving maps between the unit square and each surface: `point_at`, and its inverse `uv_of`.
+// The surfaces that are no `FlatShape` answer as those of scene/shapes/basic.h do.
 
 Imath::V3d point_at(const ProbePoint& point, const Imath::V2d& /*uv*/) {
   return point.at;
 }
-
-Imath::V3d point_at(const Quad& quad, const Imath::V2d& uv) {
-  return quad.corner + quad.edge_u * uv.x + quad.edge_v * uv.y;
-}
-
-Imath::V3d point_at(const Disc& disc, const Imath::V2d& uv) {
-  return Imath::V3d(sample_area(disc, Imath::V2f(uv)).point);
-}
-
 Imath::V3d point_at(const SphereSide& side, const Imath::V2d& uv) {
-  return Imath::V3d(sample_area(side.sphere, Imath::V2f(uv)).point);
+  return point_at(side.sphere, uv);
 }
-
 Imath::V2d uv_of(const ProbePoint& /*point*/, const Imath::V3d& /*at*/) {
   return {0.5, 0.5};
 }
-
-// Solves (u edge_u + v edge_v) . edge = (at - corner) . edge for both edges.
-Imath::V2d uv_of(const Quad& quad, const Imath::V3d& at) {
-  const Imath::V3d d = at - quad.corner;
-  const double uu = quad.edge_u.length2();
-  const double uv = quad.edge_u.dot(quad.edge_v);
-  const double vv = quad.edge_v.length2();
-  const double determinant = uu * vv - uv * uv;
-  const double du = d.dot(quad.edge_u);
-  const double dv = d.dot(quad.edge_v);
-  return {(du * vv - dv * uv) / determinant, (dv * uu - du * uv) / determinant};
-}
-
-Imath::V2d uv_of(const Disc& disc, const Imath::V3d& at) {
-  const Imath::V3d local = Basis<double>(disc.normal).to_local(at - disc.center) / disc.radius;
-  return square_of_disc({local.x, local.y});
-}
-
 Imath::V2d uv_of(const SphereSide& side, const Imath::V3d& at) {
-  const Imath::V3d outward = (at - side.sphere.center) / side.sphere.radius;
-  const double turn = std::atan2(outward.y, outward.x) / (2 * std::numbers::pi);
-  return {(1 - outward.z) / 2, turn < 0 ? turn + 1 : turn};
+  return uv_of(side.sphere, at);
+}
+const Imath::V3d& anchor_of(const ProbePoint& point) {
+  return point.at;
+}
+const Imath::V3d& anchor_of(const SphereSide& side) {
+  return side.sphere.center;
+}
+Imath::V3d center_of(const ProbePoint& point) {
+  return point.at;
+}
+Imath::V3d center_of(const SphereSide& side) {
+  return side.sphere.center;
+}
+void shift(ProbePoint& point, const Imath::V3d& by) {
+  point.at += by;
+}
+void shift(SphereSide& side, const Imath::V3d& by) {
+  shift(side.sphere, by);
+}
+double area_of(const ProbePoint& /*point*/) {
+  return 0;
+}
+double area_of(const SphereSide& side) {
+  return area(side.sphere);
+}
+template <typename Flat>
+double area_of(const Flat& flat) {
+  return area(flat);
+}
+Imath::V3d normal_at_point(const ProbePoint& point, const Imath::V3f& /*at*/) {
+  return point.normal;
+}
+Imath::V3d normal_at_point(const SphereSide& side, const Imath::V3f& at) {
+  const Imath::V3d outward = (Imath::V3d(at) - side.sphere.center).normalized();
+  return side.inwards ? -outward : outward;
+}
+template <typename Flat>
+Imath::V3d normal_at_point(const Flat& flat, const Imath::V3f& /*at*/) {
+  return normal_of(flat);
 }
 
 // Clamped to less than the film's width or height, even after rounding.
@@ -71,41 +80,26 @@ Imath::V2f film_at(const IrradianceProbe& probe, const FilmGrid& grid, const Ima
 std::optional<Opening> opening_of(const ProbePoint& /*point*/) {
   return std::nullopt;
 }
-
-std::optional<Opening> opening_of(const Quad& quad) {
-  return FlatOpening{quad.corner + (quad.edge_u + quad.edge_v) * 0.5, quad.edge_u * 0.5, quad.edge_v * 0.5,
-                     normal_of(quad), false};
-}
-
-std::optional<Opening> opening_of(const Disc& disc) {
-  const Basis<double> axes(disc.normal);
-  return FlatOpening{disc.center, axes.x * disc.radius, axes.y * disc.radius, disc.normal, true};
-}
-
 std::optional<Opening> opening_of(const SphereSide& side) {
   return side;
+}
+template <typename Flat>
+std::optional<Opening> opening_of(const Flat& flat) {
+  const auto [corner, edge_u, edge_v, center, normal, round] = *flat_face(flat);
+  return FlatOpening{center, edge_u * 0.5, edge_v * 0.5, normal, round};
 }
 
 }  // namespace
 
-CameraRay IrradianceProbe::sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f direction,
-                                      const SampledSpectrum& /*wavelengths_nm*/, int /*hero*/,
-                                      float time) const {
-  const Imath::V2d uv(static_cast<double>(film.x) / grid.width, static_cast<double>(film.y) / grid.height);
+CameraRay IrradianceProbe::sample_ray(const FilmGrid& grid, const CameraSample& sample) const {
+  const Imath::V2d uv(static_cast<double>(sample.film.x) / grid.width,
+                      static_cast<double>(sample.film.y) / grid.height);
   const Imath::V3f point(std::visit([&](const auto& of) { return point_at(of, uv); }, surface));
   const Imath::V3f normal = normal_at(point);
-  const Imath::V3f local = cosine_cone(direction, static_cast<float>(acceptance));
+  const Imath::V3f local = cosine_cone(sample.lens, static_cast<float>(acceptance));
   // Starts on the side of its normal even at grazing directions.
-  return {ray_at(offset_point(point, normal, normal), Basis<float>(normal).to_world(local), time),
+  return {ray_at(offset_point(point, normal, normal), Basis<float>(normal).to_world(local), sample.time),
           SampledSpectrum(static_cast<float>(disc_area(acceptance))), local.z};
-}
-
-std::optional<CameraConnection> IrradianceProbe::sample_towards(const FilmGrid& /*grid*/,
-                                                                const Imath::V3f& /*point*/,
-                                                                Imath::V2f /*lens*/,
-                                                                const SampledSpectrum& /*wavelengths_nm*/,
-                                                                float /*time*/) const {
-  return std::nullopt;
 }
 
 std::optional<CameraDensity> IrradianceProbe::density(const FilmGrid& grid, const Ray& ray,
@@ -135,38 +129,23 @@ CameraTraits IrradianceProbe::traits() const {
 }
 
 const Imath::V3d& IrradianceProbe::position() const {
-  if (const auto* point = std::get_if<ProbePoint>(&surface)) return point->at;
-  if (const auto* quad = std::get_if<Quad>(&surface)) return quad->corner;
-  if (const auto* disc = std::get_if<Disc>(&surface)) return disc->center;
-  return std::get<SphereSide>(surface).sphere.center;
+  return std::visit([](const auto& of) -> const Imath::V3d& { return anchor_of(of); }, surface);
 }
 
 Imath::V3d IrradianceProbe::center() const {
-  const auto* quad = std::get_if<Quad>(&surface);
-  return quad != nullptr ? point_at(*quad, {0.5, 0.5}) : position();
+  return std::visit([](const auto& of) { return center_of(of); }, surface);
 }
 
 void IrradianceProbe::translate(const Imath::V3d& by) {
-  if (auto* point = std::get_if<ProbePoint>(&surface)) point->at += by;
-  if (auto* quad = std::get_if<Quad>(&surface)) quad->corner += by;
-  if (auto* disc = std::get_if<Disc>(&surface)) disc->center += by;
-  if (auto* side = std::get_if<SphereSide>(&surface)) side->sphere.center += by;
+  std::visit([&by](auto& of) { shift(of, by); }, surface);
 }
 
 Imath::V3f IrradianceProbe::normal_at(const Imath::V3f& point) const {
-  if (const auto* single = std::get_if<ProbePoint>(&surface)) return Imath::V3f(single->normal);
-  if (const auto* quad = std::get_if<Quad>(&surface)) return Imath::V3f(normal_of(*quad));
-  if (const auto* disc = std::get_if<Disc>(&surface)) return Imath::V3f(disc->normal);
-  const auto& side = std::get<SphereSide>(surface);
-  const Imath::V3d outward = (Imath::V3d(point) - side.sphere.center).normalized();
-  return Imath::V3f(side.inwards ? -outward : outward);
+  return Imath::V3f(std::visit([&point](const auto& of) { return normal_at_point(of, point); }, surface));
 }
 
 double IrradianceProbe::area() const {
-  if (const auto* quad = std::get_if<Quad>(&surface)) return abbe::area(*quad);
-  if (const auto* disc = std::get_if<Disc>(&surface)) return abbe::area(*disc);
-  if (const auto* side = std::get_if<SphereSide>(&surface)) return abbe::area(side->sphere);
-  return 0;
+  return std::visit([](const auto& of) { return area_of(of); }, surface);
 }
 
 }  // namespace abbe

@@ -18,18 +18,18 @@ struct ProbePoint {
 /// irradiance is that by the accepted light. Divided by the projected solid angle pi `acceptance`^2 it is the
 /// mean radiance, multiplied by the area it is the flux.
 struct IrradianceProbe {
-  std::variant<ProbePoint, Quad, Disc, SphereSide> surface;
+  Joined<std::variant<ProbePoint, SphereSide>, FlatShape>::type surface;
   double acceptance = 1;  ///< Sine of the maximum angle with the normal, in (0, 1].
 
   // Functions without a comment are those of `CameraModel`.
 
-  [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f direction,
-                                     const SampledSpectrum& wavelengths_nm, int hero, float time) const;
+  [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, const CameraSample& sample) const;
   /// Always nothing: light is connected to a probe as to a surface.
-  [[nodiscard]] std::optional<CameraConnection> sample_towards(const FilmGrid& grid, const Imath::V3f& point,
-                                                               Imath::V2f lens,
-                                                               const SampledSpectrum& wavelengths_nm,
-                                                               float time) const;
+  [[nodiscard]] std::optional<CameraConnection> sample_towards(const FilmGrid& /*grid*/,
+                                                               const Imath::V3f& /*point*/,
+                                                               const CameraSample& /*sample*/) const {
+    return std::nullopt;
+  }
   /// The film position of a point probe is the center of the film, whatever position was sampled.
   [[nodiscard]] std::optional<CameraDensity> density(const FilmGrid& grid, const Ray& ray,
                                                      const SampledSpectrum& wavelengths_nm,

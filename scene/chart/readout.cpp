@@ -56,14 +56,14 @@ std::optional<Imath::V2d> image_of(const Camera& camera, const Imath::V3d& point
 }
 
 // The corners on the film of a patch's inner part; nothing if the camera does not see them.
-std::optional<PatchOutline> project(const Camera& camera, const std::string& name, const Quad& quad) {
+std::optional<PatchOutline> project(const Camera& camera, const std::string& name, const FlatFace& patch) {
   constexpr double kLow = (1 - kInnerFraction) / 2;
   constexpr double kHigh = 1 - kLow;
   constexpr std::array<std::array<double, 2>, 4> kCorners{
       {{kLow, kLow}, {kHigh, kLow}, {kHigh, kHigh}, {kLow, kHigh}}};
   PatchOutline outline{name, {}};
   for (std::size_t i = 0; i < kCorners.size(); ++i) {
-    const Imath::V3d point = quad.corner + quad.edge_u * kCorners[i][0] + quad.edge_v * kCorners[i][1];
+    const Imath::V3d point = patch.corner + patch.edge_u * kCorners[i][0] + patch.edge_v * kCorners[i][1];
     const auto image = image_of(camera, point);
     if (!image) return std::nullopt;
     outline.corners[i] = *image;
@@ -95,7 +95,7 @@ std::vector<PatchOutline> chart_outlines(const Scene& scene, const ChartInstance
   std::vector<PatchOutline> outlines;
   for (std::uint32_t i = chart.first; i < chart.first + chart.patches; ++i) {
     const ShapeInstance& shape = scene.shapes.at(i);
-    auto outline = project(camera, shape.name, std::get<Quad>(shape.shape));
+    auto outline = project(camera, shape.name, *flat_face(shape.shape));
     if (!outline) throw Error(ErrorCode::input, shape.name, "its inner part is outside the film");
     outlines.push_back(*std::move(outline));
   }

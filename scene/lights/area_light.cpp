@@ -180,18 +180,18 @@ Imath::V2d SphericalRectangle::sample(Imath::V2f u) const {
   return {(x - x0_) / (x1_ - x0_), (y - y0_) / (y1_ - y0_)};
 }
 
-void AreaLight::measure(const Shape& of) {
+void AreaLight::measure(const Shapes& shapes) {
+  const Shape& of = shapes[shape].shape;
   area = abbe::area(of);
   triangle_cdf = abbe::triangle_cdf(of);
   if (const auto* quad = plain<Quad>(of))
     flat = std::make_shared<const EmittingQuad>(EmittingQuad{RenderedQuad(*quad), Rectangle::of(*quad)});
 }
 
-std::optional<LightSample> AreaLight::sample(const Shapes& shapes, const LightSampleContext& context,
-                                             Imath::V2f u, float time) const {
-  const Imath::V3f& point = context.point;
+std::optional<LightSample> AreaLight::sample(const LightQuery& query) const {
+  const Imath::V3f& point = query.context.point;
   const auto [at, solid_angle_pdf] =
-      sample_area_light_at(time, *this, shapes[shape].shape, Imath::V3d(point), u);
+      sample_area_light_at(query.time, *this, query.shapes[shape].shape, Imath::V3d(point), query.u);
   const Imath::V3d d = Imath::V3d(at.point) - Imath::V3d(point);
   const double distance = d.length();
   const double pdf =
@@ -232,9 +232,8 @@ Imath::V3f AreaLight::emission_direction(const Imath::V3f& normal, Imath::V2f u,
   return direction_about(flip ? -normal : normal, 1 - std::sqrt(1 - v), phi);
 }
 
-EmissionDensity AreaLight::emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
-                                            float /*scene_radius_m*/, float /*time*/) const {
-  const float cos_theta = normal.dot(wo);
+EmissionDensity AreaLight::emission_density(const EmissionQuery& query) const {
+  const float cos_theta = query.normal.dot(query.wo);
   const float pdf = two_sided ? std::abs(cos_theta) / (2 * std::numbers::pi_v<float>)
                               : std::max(0.0F, cos_theta) / std::numbers::pi_v<float>;
   return {static_cast<float>(1 / area), pdf};

@@ -20,7 +20,7 @@ namespace abbe {
 struct Rectangle {
   Imath::V3d corner;
   Imath::V3d center;
-  Imath::V3d x, y;        ///< Unit vectors along `Quad::edge_u` and `Quad::edge_v`.
+  Imath::V3d x, y;        ///< Unit vectors along the quad's edges.
   double size_u, size_v;  ///< Lengths of these edges [m].
 
   /// The rectangle of a quad; nothing for a parallelogram without right angles.
@@ -78,14 +78,12 @@ struct AreaLight {
   /// The quad, for lights that are quads. Other lights do not spend memory on it.
   std::shared_ptr<const EmittingQuad> flat = nullptr;
 
-  /// Computes `area`, `triangle_cdf` and `flat` from the light's shape. Throws Error{internal} for a static
-  /// instance. `Scene::commit` calls it.
-  void measure(const Shape& of);
+  /// Computes `area`, `triangle_cdf` and `flat` from the light's shape, as `abbe::measure`.
+  void measure(const Shapes& shapes);
 
   // Functions of `LightModel`. `bounds` has the intensity of the projected area along the axis: constant for
   // a sphere; for a closed mesh, a quarter of its area.
-  [[nodiscard]] std::optional<LightSample> sample(const Shapes& shapes, const LightSampleContext& context,
-                                                  Imath::V2f u, float time) const;
+  [[nodiscard]] std::optional<LightSample> sample(const LightQuery& query) const;
   [[nodiscard]] float pdf(const Shapes& shapes, const LightHit& at) const;
   [[nodiscard]] bool emits_towards(const Imath::V3f& normal, const Imath::V3f& wo) const {
     return two_sided || normal.dot(wo) > 0;
@@ -95,8 +93,7 @@ struct AreaLight {
   }
   [[nodiscard]] EmissionPoint sample_emission_point(const Shapes& shapes, Imath::V2f u, float time) const;
   [[nodiscard]] Imath::V3f emission_direction(const Imath::V3f& normal, Imath::V2f u, float time) const;
-  [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
-                                                 float scene_radius_m, float time) const;
+  [[nodiscard]] EmissionDensity emission_density(const EmissionQuery& query) const;
   [[nodiscard]] double etendue(double /*across*/) const {
     return std::numbers::pi * area * (two_sided ? 2 : 1);
   }

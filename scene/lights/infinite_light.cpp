@@ -38,6 +38,13 @@ std::optional<Imath::V3f> sample_direction(const EnvironmentLight& environment,
   return Basis<float>(*context.side).to_world(cosine_hemisphere(u));
 }
 
+float direction_pdf(const EnvironmentLight& environment, const LightSampleContext& context,
+                    const Imath::V3f& wi) {
+  if (environment.image) return environment.image->pdf(wi);
+  return context.side ? std::max(0.0F, context.side->dot(wi)) / std::numbers::pi_v<float>
+                      : 1 / (4 * std::numbers::pi_v<float>);
+}
+
 // Density on the disc of the scene's radius that is perpendicular to the direction.
 float disc_pdf(float scene_radius_m) {
   return 1 / (std::numbers::pi_v<float> * scene_radius_m * scene_radius_m);
@@ -49,7 +56,7 @@ LightBounds bounds_at_infinity(const Imath::V3f& towards, double cap, double fac
 }
 
 // Through the center of the scene, from 1.5 times its radius before it.
-BasicRay<double> central_ray_from(const Imath::V3d& towards, const SceneSphere& sphere) {
+BasicRay<double> central_ray_from(const Imath::V3d& towards, const Ball& sphere) {
   return {sphere.center + 1.5 * sphere.radius * towards, -towards};
 }
 
@@ -155,25 +162,17 @@ std::size_t EnvironmentImage::memory_bytes() const {
   return texels_.size() * sizeof(texels_[0]) + (row_cdf_.size() + column_cdf_.size()) * sizeof(double);
 }
 
-float EnvironmentLight::pdf(const LightSampleContext& context, const Imath::V3f& wi) const {
-  if (image) return image->pdf(wi);
-  return context.side ? std::max(0.0F, context.side->dot(wi)) / std::numbers::pi_v<float>
-                      : 1 / (4 * std::numbers::pi_v<float>);
-}
-
 float EnvironmentLight::pdf(const Shapes& /*shapes*/, const LightHit& at) const {
-  return pdf(at.context, at.wi);
+  return direction_pdf(*this, at.context, at.wi);
 }
 
-std::optional<LightSample> EnvironmentLight::sample(const Shapes& /*shapes*/,
-                                                    const LightSampleContext& context, Imath::V2f u,
-                                                    float /*time*/) const {
-  const auto wi = sample_direction(*this, context, u);
+std::optional<LightSample> EnvironmentLight::sample(const LightQuery& query) const {
+  const auto wi = sample_direction(*this, query.context, query.u);
   if (!wi) return std::nullopt;
   // The rounded direction may fall into the next texel. Density and radiance then both belong to that texel.
-  const float density = pdf(context, *wi);
+  const float density = direction_pdf(*this, query.context, *wi);
   if (!(density > 0)) return std::nullopt;
-  return LightSample{*wi, kInfinity, 1, density, context.point};
+  return LightSample{*wi, kInfinity, 1, density, query.context.point};
 }
 
 SampledSpectrum EnvironmentLight::emission_from(const ScaledCurve& emission, const Imath::V3f& wi,
@@ -181,9 +180,8 @@ SampledSpectrum EnvironmentLight::emission_from(const ScaledCurve& emission, con
   return image ? image->radiance(wi, wavelengths_nm) : emission(wavelengths_nm);
 }
 
-EmissionDensity EnvironmentLight::emission_density(const Imath::V3f& /*normal*/, const Imath::V3f& wo,
-                                                   float scene_radius_m, float /*time*/) const {
-  return {disc_pdf(scene_radius_m), pdf({}, -wo)};
+EmissionDensity EnvironmentLight::emission_density(const EmissionQuery& query) const {
+  return {disc_pdf(query.scene_radius_m), direction_pdf(*this, {}, -query.wo)};
 }
 
 LightBounds EnvironmentLight::bounds(const Shapes& /*shapes*/, double emission) const {
@@ -194,22 +192,19 @@ LightBounds EnvironmentLight::bounds(const Shapes& /*shapes*/, double emission) 
   return bounds;
 }
 
-std::optional<LightSample> DirectionalLight::sample(const Shapes& /*shapes*/,
-                                                    const LightSampleContext& context, Imath::V2f /*u*/,
-                                                    float /*time*/) const {
-  return LightSample{towards, kInfinity, 1, 1, context.point};
+std::optional<LightSample> DirectionalLight::sample(const LightQuery& query) const {
+  return LightSample{towards, kInfinity, 1, 1, query.context.point};
 }
 
-EmissionDensity DirectionalLight::emission_density(const Imath::V3f& /*normal*/, const Imath::V3f& /*wo*/,
-                                                   float scene_radius_m, float /*time*/) const {
-  return {disc_pdf(scene_radius_m), 1};
+EmissionDensity DirectionalLight::emission_density(const EmissionQuery& query) const {
+  return {disc_pdf(query.scene_radius_m), 1};
 }
 
 LightBounds DirectionalLight::bounds(const Shapes& /*shapes*/, double emission) const {
   return bounds_at_infinity(towards, 0, emission, emission);
 }
 
-std::optional<BasicRay<double>> DirectionalLight::central_ray(const SceneSphere& sphere) const {
+std::optional<BasicRay<double>> DirectionalLight::central_ray(const Ball& sphere) const {
   return central_ray_from(Imath::V3d(towards), sphere);
 }
 
@@ -218,19 +213,18 @@ double SunLight::projected_solid_angle() const {
   return std::numbers::pi * height * (2 - height);
 }
 
-std::optional<LightSample> SunLight::sample(const Shapes& /*shapes*/, const LightSampleContext& context,
-                                            Imath::V2f u, float /*time*/) const {
-  const float phi = 2 * std::numbers::pi_v<float> * u.y;
-  return LightSample{direction_about(towards, u.x * cap, phi), kInfinity, 1, cone_pdf(cap), context.point};
+std::optional<LightSample> SunLight::sample(const LightQuery& query) const {
+  const float phi = 2 * std::numbers::pi_v<float> * query.u.y;
+  return LightSample{direction_about(towards, query.u.x * cap, phi), kInfinity, 1, cone_pdf(cap),
+                     query.context.point};
 }
 
 float SunLight::pdf(const Shapes& /*shapes*/, const LightHit& at) const {
   return contains(at.wi) ? cone_pdf(cap) : 0.0F;
 }
 
-EmissionDensity SunLight::emission_density(const Imath::V3f& /*normal*/, const Imath::V3f& wo,
-                                           float scene_radius_m, float /*time*/) const {
-  return {disc_pdf(scene_radius_m), contains(-wo) ? cone_pdf(cap) : 0.0F};
+EmissionDensity SunLight::emission_density(const EmissionQuery& query) const {
+  return {disc_pdf(query.scene_radius_m), contains(-query.wo) ? cone_pdf(cap) : 0.0F};
 }
 
 LightBounds SunLight::bounds(const Shapes& /*shapes*/, double emission) const {
@@ -238,7 +232,7 @@ LightBounds SunLight::bounds(const Shapes& /*shapes*/, double emission) const {
   return bounds_at_infinity(towards, static_cast<double>(cap), irradiance, irradiance);
 }
 
-std::optional<BasicRay<double>> SunLight::central_ray(const SceneSphere& sphere) const {
+std::optional<BasicRay<double>> SunLight::central_ray(const Ball& sphere) const {
   return central_ray_from(Imath::V3d(towards), sphere);
 }
 

@@ -78,22 +78,16 @@ struct EnvironmentLight {
 
   std::shared_ptr<const EnvironmentImage> image = nullptr;
 
-  /// Density [1/sr] of the unit direction `wi`, from the point towards the light, as sampled for that point.
-  /// With an image it follows the image. Otherwise it is proportional to the cosine on the receiving side, or
-  /// uniform if there is no such side.
-  [[nodiscard]] float pdf(const LightSampleContext& context, const Imath::V3f& wi) const;
-
-  // Functions of `LightModel`.
-  [[nodiscard]] std::optional<LightSample> sample(const Shapes& shapes, const LightSampleContext& context,
-                                                  Imath::V2f u, float time) const;
+  // Functions of `LightModel`. With an image, directions are sampled in proportion to it. Otherwise they are
+  // in proportion to the cosine on the receiving side, or uniform if there is no such side.
+  [[nodiscard]] std::optional<LightSample> sample(const LightQuery& query) const;
   [[nodiscard]] float pdf(const Shapes& shapes, const LightHit& at) const;
   [[nodiscard]] SampledSpectrum emission_from(const ScaledCurve& emission, const Imath::V3f& wi,
                                               const SampledSpectrum& wavelengths_nm) const;
   [[nodiscard]] ScaledCurve mean_emission(const ScaledCurve& emission) const {
     return image ? ScaledCurve(image->mean_radiance()) : emission;
   }
-  [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
-                                                 float scene_radius_m, float time) const;
+  [[nodiscard]] EmissionDensity emission_density(const EmissionQuery& query) const;
   [[nodiscard]] double etendue(double across) const { return 4 * std::numbers::pi * across; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
   [[nodiscard]] double solid_angle() const { return 4 * std::numbers::pi; }
@@ -108,14 +102,12 @@ struct DirectionalLight {
   Imath::V3f towards{0, 0, 1};
 
   // Functions of `LightModel`.
-  [[nodiscard]] std::optional<LightSample> sample(const Shapes& shapes, const LightSampleContext& context,
-                                                  Imath::V2f u, float time) const;
-  [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
-                                                 float scene_radius_m, float time) const;
+  [[nodiscard]] std::optional<LightSample> sample(const LightQuery& query) const;
+  [[nodiscard]] EmissionDensity emission_density(const EmissionQuery& query) const;
   [[nodiscard]] double etendue(double across) const { return across; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
   [[nodiscard]] std::optional<DirectionCone> beam() const { return DirectionCone{towards, 0}; }
-  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& sphere) const;
+  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const Ball& sphere) const;
 };
 
 /// A disc at infinity around the unit direction `towards`, with uniform radiance and visible to cameras. It
@@ -133,17 +125,15 @@ struct SunLight {
   [[nodiscard]] double projected_solid_angle() const;
 
   // Functions of `LightModel`.
-  [[nodiscard]] std::optional<LightSample> sample(const Shapes& shapes, const LightSampleContext& context,
-                                                  Imath::V2f u, float time) const;
+  [[nodiscard]] std::optional<LightSample> sample(const LightQuery& query) const;
   [[nodiscard]] float pdf(const Shapes& shapes, const LightHit& at) const;
-  [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
-                                                 float scene_radius_m, float time) const;
+  [[nodiscard]] EmissionDensity emission_density(const EmissionQuery& query) const;
   [[nodiscard]] double etendue(double across) const { return projected_solid_angle() * across; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
   [[nodiscard]] std::optional<DirectionCone> beam() const { return DirectionCone{towards, cap}; }
   [[nodiscard]] bool is_visible_along(const Imath::V3f& wi) const { return contains(wi); }
   [[nodiscard]] double solid_angle() const { return 2 * std::numbers::pi * static_cast<double>(cap); }
-  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& sphere) const;
+  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const Ball& sphere) const;
 };
 
 }  // namespace abbe

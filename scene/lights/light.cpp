@@ -1,53 +1,51 @@
 #include "scene/lights/light.h"
 
 #include <numbers>
+#include <type_traits>
 
 #include "io/error.h"
 #include "scene/shapes/ray.h"
 
 namespace abbe {
+namespace {
 
-std::optional<PolarisationState> polarised(const LightPolarisation& of, const Imath::V3f& travels) {
-  if (const auto* circular = std::get_if<CircularPolarisation>(&of.kind))
-    return PolarisationState{Basis<float>(travels).x, 0, 0, circular->right ? of.degree : -of.degree};
-  constexpr float kAlong = 1e-6F;  // below this length, the perpendicular component of the axis is rounding
-  const Imath::V3f& axis = std::get<LinearPolarisation>(of.kind).axis;
-  const Imath::V3f across = axis - travels * axis.dot(travels);
-  if (!(across.length() > kAlong)) return std::nullopt;
-  return PolarisationState{across.normalized(), of.degree, 0, 0};
+// The answer of the light's model to `question`; `otherwise` for models that lack the function it calls.
+template <typename Result, typename Question>
+Result answer(const Light& light, const Result& otherwise, const Question& question) {
+  return std::visit(
+      [&](const auto& model) -> Result {
+        if constexpr (std::is_invocable_v<const Question&, decltype(model)>)
+          return question(model);
+        else
+          return otherwise;
+      },
+      light.kind);
+}
+
+}  // namespace
+
+void measure(Light& light, const Shapes& shapes) {
+  std::visit(
+      [&shapes](auto& model) {
+        if constexpr (requires { model.measure(shapes); }) model.measure(shapes);
+      },
+      light.kind);
 }
 
 const Imath::V3f* light_position(const Light& light) {
-  return std::visit(
-      []<LightModel Model>(const Model& model) -> const Imath::V3f* {
-        if constexpr (PointLightModel<Model>)
-          return &model.position;
-        else
-          return nullptr;
-      },
-      light.kind);
+  return answer(light, static_cast<const Imath::V3f*>(nullptr),
+                []<PointLightModel Model>(const Model& model) { return &model.position; });
 }
 
 std::optional<Imath::V3f> position_at(const Light& light, float time) {
-  return std::visit(
-      [time]<LightModel Model>(const Model& model) -> std::optional<Imath::V3f> {
-        if constexpr (PointLightModel<Model>)
-          return moved_position(model.position, model.motion.get(), time);
-        else
-          return std::nullopt;
-      },
-      light.kind);
+  return answer(light, std::optional<Imath::V3f>(), [time]<PointLightModel Model>(const Model& model) {
+    return std::optional(moved_position(model.position, model.motion.get(), time));
+  });
 }
 
 std::optional<DirectionCone> cone_at(const Light& light, float time) {
-  return std::visit(
-      [time](const auto& model) -> std::optional<DirectionCone> {
-        if constexpr (requires { model.cone_at(time); })
-          return model.cone_at(time);
-        else
-          return std::nullopt;
-      },
-      light.kind);
+  return answer(light, std::optional<DirectionCone>(),
+                [time](const auto& model) -> decltype(model.cone_at(time)) { return model.cone_at(time); });
 }
 
 const Motion* motion_of(const Light& light, const Shapes& shapes) {
@@ -81,36 +79,19 @@ LightBounds light_bounds(const Light& light, const Shapes& shapes, double emissi
 }
 
 std::optional<DirectionCone> beam_of(const Light& light) {
-  return std::visit(
-      [](const auto& model) -> std::optional<DirectionCone> {
-        if constexpr (requires { model.beam(); })
-          return model.beam();
-        else
-          return std::nullopt;
-      },
-      light.kind);
+  return answer(light, std::optional<DirectionCone>(),
+                [](const auto& model) -> decltype(model.beam()) { return model.beam(); });
 }
 
 bool is_visible_along(const Light& light, const Imath::V3f& wi) {
-  return std::visit(
-      [&]<LightModel Model>(const Model& model) {
-        if constexpr (requires { model.is_visible_along(wi); })
-          return model.is_visible_along(wi);
-        else
-          return true;
-      },
-      light.kind);
+  return answer(light, true, [&wi](const auto& model) -> decltype(model.is_visible_along(wi)) {
+    return model.is_visible_along(wi);
+  });
 }
 
 double solid_angle(const Light& light) {
-  return std::visit(
-      [](const auto& model) {
-        if constexpr (requires { model.solid_angle(); })
-          return model.solid_angle();
-        else
-          return 0.0;
-      },
-      light.kind);
+  return answer(light, 0.0,
+                [](const auto& model) -> decltype(model.solid_angle()) { return model.solid_angle(); });
 }
 
 SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
@@ -126,34 +107,33 @@ SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
 }
 
 float emission_factor(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo, float time) {
-  return std::visit(
-      [&](const auto& model) {
-        if constexpr (requires { model.emission_factor(normal, wo, time); })
-          return model.emission_factor(normal, wo, time);
-        else
-          return 1.0F;
-      },
-      light.kind);
+  return answer(light, 1.0F, [&](const auto& model) -> decltype(model.emission_factor(normal, wo, time)) {
+    return model.emission_factor(normal, wo, time);
+  });
 }
 
 bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo) {
-  return std::visit(
-      [&](const auto& model) {
-        if constexpr (requires { model.emits_towards(normal, wo); })
-          return model.emits_towards(normal, wo);
-        else
-          return true;
-      },
-      light.kind);
+  return answer(light, true, [&](const auto& model) -> decltype(model.emits_towards(normal, wo)) {
+    return model.emits_towards(normal, wo);
+  });
 }
 
 std::optional<PolarisationState> polarisation_of(const Light& light, const Imath::V3f& travels) {
-  return light.polarisation ? polarised(*light.polarisation, travels) : std::nullopt;
+  if (!light.polarisation) return std::nullopt;
+  const auto& [degree, kind] = *light.polarisation;
+  if (const auto* circular = std::get_if<CircularPolarisation>(&kind))
+    return PolarisationState{Basis<float>(travels).x, 0, 0, circular->right ? degree : -degree};
+  constexpr float kAlong = 1e-6F;  // below this length, the perpendicular component of the axis is rounding
+  const Imath::V3f& axis = std::get<LinearPolarisation>(kind).axis;
+  const Imath::V3f across = axis - travels * axis.dot(travels);
+  if (!(across.length() > kAlong)) return std::nullopt;
+  return PolarisationState{across.normalized(), degree, 0, 0};
 }
 
 std::optional<LightSample> sample_light(const Light& light, const Shapes& shapes,
                                         const LightSampleContext& context, Imath::V2f u, float time) {
-  return std::visit([&](const auto& model) { return model.sample(shapes, context, u, time); }, light.kind);
+  const LightQuery query{shapes, context, u, time};
+  return std::visit([&query](const auto& model) { return model.sample(query); }, light.kind);
 }
 
 float light_pdf(const Light& light, const Shapes& shapes, const LightSampleContext& context,
@@ -185,9 +165,8 @@ EmissionPoint sample_emission_point(const Light& light, const Shapes& shapes, Im
 
 EmissionDensity emission_density(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo,
                                  float scene_radius_m, float time) {
-  return std::visit(
-      [&](const auto& model) { return model.emission_density(normal, wo, scene_radius_m, time); },
-      light.kind);
+  const EmissionQuery query{normal, wo, scene_radius_m, time};
+  return std::visit([&query](const auto& model) { return model.emission_density(query); }, light.kind);
 }
 
 Imath::V3f emission_direction(const Light& light, const Imath::V3f& normal, Imath::V2f u, float time) {
@@ -208,14 +187,10 @@ double etendue(const Light& light, double scene_radius_m) {
 }
 
 ScaledCurve mean_emission(const Light& light) {
-  return std::visit(
-      [&](const auto& model) {
-        if constexpr (requires { model.mean_emission(light.emission); })
-          return model.mean_emission(light.emission);
-        else
-          return light.emission;
-      },
-      light.kind);
+  return answer(light, light.emission,
+                [&](const auto& model) -> decltype(model.mean_emission(light.emission)) {
+                  return model.mean_emission(light.emission);
+                });
 }
 
 Curve power(const Light& light, double scene_radius_m) {
@@ -225,36 +200,20 @@ Curve power(const Light& light, double scene_radius_m) {
 std::size_t memory_bytes(const Light& light) {
   std::size_t bytes = sizeof(Light);
   if (light.name.capacity() > std::string().capacity()) bytes += light.name.capacity() + 1;
-  return bytes + std::visit(
-                     [](const auto& model) -> std::size_t {
-                       if constexpr (requires { model.memory_bytes(); })
-                         return model.memory_bytes();
-                       else
-                         return 0;
-                     },
-                     light.kind);
+  return bytes + answer(light, std::size_t{0}, [](const auto& model) -> decltype(model.memory_bytes()) {
+           return model.memory_bytes();
+         });
 }
 
-std::optional<BasicRay<double>> central_ray(const Light& light, const SceneSphere& sphere) {
-  return std::visit(
-      [&](const auto& model) -> std::optional<BasicRay<double>> {
-        if constexpr (requires { model.central_ray(sphere); })
-          return model.central_ray(sphere);
-        else
-          return std::nullopt;
-      },
-      light.kind);
+std::optional<BasicRay<double>> central_ray(const Light& light, const Ball& sphere) {
+  return answer(
+      light, std::optional<BasicRay<double>>(),
+      [&](const auto& model) -> decltype(model.central_ray(sphere)) { return model.central_ray(sphere); });
 }
 
 double fan_of(const Light& light) {
-  return std::visit(
-      [](const auto& model) {
-        if constexpr (requires { model.fan(); })
-          return model.fan();
-        else
-          return std::numbers::pi / 3;
-      },
-      light.kind);
+  return answer(light, std::numbers::pi / 3,
+                [](const auto& model) -> decltype(model.fan()) { return model.fan(); });
 }
 
 }  // namespace abbe

@@ -48,11 +48,6 @@ struct PolarisationState {
   float v = 0;
 };
 
-/// Polarisation state of light that propagates along the unit direction `travels`. Nothing if it is linear
-/// and its axis is parallel to that direction, where the state is undefined.
-[[nodiscard]] std::optional<PolarisationState> polarised(const LightPolarisation& of,
-                                                         const Imath::V3f& travels);
-
 /// A light: its model with its position, and its emission spectrum. The emission is
 /// - spectral radiance [W m^-2 sr^-1 nm^-1] for an area light, environment light or sun. For an environment
 ///   image it is the radiance of a texel (1, 1, 1);
@@ -94,6 +89,20 @@ inline bool Light::is_delta() const {
 inline bool Light::at_infinity() const {
   return LightFlags<decltype(kind)>::kAtInfinity[kind.index()];
 }
+
+/// Index into `Scene::shapes` of the shape whose surface emits; nothing for other lights.
+[[nodiscard]] inline std::optional<std::uint32_t> surface_of(const Light& light) {
+  const auto* area = std::get_if<AreaLight>(&light.kind);
+  return area != nullptr ? std::optional(area->shape) : std::nullopt;
+}
+/// True if the light is a surface that emits from both sides.
+[[nodiscard]] inline bool two_sided(const Light& light) {
+  const auto* area = std::get_if<AreaLight>(&light.kind);
+  return area != nullptr && area->two_sided;
+}
+/// Computes what sampling needs of the shape of an area light; nothing to do for other lights. Throws
+/// Error{internal} for a static instance. `Scene::commit` calls it.
+void measure(Light& light, const Shapes& shapes);
 
 /// Position of a light at a point, at time 0 if it moves; nullptr for other lights.
 [[nodiscard]] const Imath::V3f* light_position(const Light& light);
@@ -183,7 +192,7 @@ inline constexpr std::array<std::array<float, 2>, 5> kRepresentativePoints{
 /// Central ray of a light without a shape at time 0, for drawings: infinite, with a unit direction away from
 /// the light. Light at infinity starts 1.5 times the sphere's radius before its center. A point light's ray
 /// points to that center, or along +x if it is there. Nothing for an environment light and for area lights.
-[[nodiscard]] std::optional<BasicRay<double>> central_ray(const Light& light, const SceneSphere& sphere);
+[[nodiscard]] std::optional<BasicRay<double>> central_ray(const Light& light, const Ball& sphere);
 /// Half the angle [rad] of the rays around the central ray that a drawing shows: pi for a point light, the
 /// half angle of a spot light, 60 degrees for an area light.
 [[nodiscard]] double fan_of(const Light& light);

@@ -27,6 +27,14 @@ struct LightSampleContext {
   bool glossy = false;  ///< True if the BSDF has glossy lobes, which sample environment light better.
 };
 
+/// Arguments of `sample_light` but the light.
+struct LightQuery {
+  const Shapes& shapes;
+  const LightSampleContext& context;
+  Imath::V2f u;
+  float time;
+};
+
 /// A sampled direction towards a light. `factor` times `emission_from` is the incident radiance (area,
 /// environment, sun) or the irradiance of a perpendicular surface (delta lights). Visibility is not tested.
 struct LightSample {
@@ -58,6 +66,13 @@ struct EmissionPoint {
   float pdf_area;  ///< Density by area [1/m^2]; 1 for lights at a point.
 };
 
+/// Arguments of `emission_density` but the light.
+struct EmissionQuery {
+  const Imath::V3f& normal;
+  const Imath::V3f& wo;
+  float scene_radius_m;
+  float time;
+};
 /// Densities with which a light emits photons without a photon guide.
 struct EmissionDensity {
   /// Density of the point [1/m^2]; 1 for a point. For light from infinity, the density on the disc of the
@@ -103,12 +118,6 @@ struct LightBounds {
   bool ambient = false;  ///< True for light that is equal from all directions.
 };
 
-/// Sphere around the nearby shapes of a scene.
-struct SceneSphere {
-  Imath::V3d center;
-  double radius;  ///< [m]
-};
-
 /// A light at a point, which may move.
 template <typename Model>
 concept PointLightModel = requires(const Model& light) {
@@ -130,19 +139,19 @@ concept PointLightModel = requires(const Model& light) {
 /// - `is_visible_along(wi)`: true if that direction points to a light at infinity [true].
 /// - `solid_angle()`: solid angle [sr] of a light without a shape [0].
 /// - `central_ray(sphere)`, `fan()`: see light.h [none, 60 degrees].
+/// - `measure(shapes)`: as in light.h [nothing to do].
 /// - `memory_bytes()`: memory of its own data, in addition to the size of the struct [0].
 template <typename Model>
-concept LightModel = requires(const Model& light, const Shapes& shapes, const LightSampleContext& context,
-                              Imath::V2f u, const Imath::V3f& normal, const Imath::V3f& wo,
-                              float scene_radius_m, float time) {
+concept LightModel = requires(const Model& light, const Shapes& shapes, const LightQuery& query,
+                              const EmissionQuery& emission) {
   /// True if it arrives from a single direction at every point, so that BSDF sampling cannot hit it.
   { Model::kIsDelta } -> std::convertible_to<bool>;
   /// True if it has no position.
   { Model::kAtInfinity } -> std::convertible_to<bool>;
   /// `sample_light` for this model.
-  { light.sample(shapes, context, u, time) } -> std::same_as<std::optional<LightSample>>;
+  { light.sample(query) } -> std::same_as<std::optional<LightSample>>;
   /// The function of the same name in light.h.
-  { light.emission_density(normal, wo, scene_radius_m, time) } -> std::same_as<EmissionDensity>;
+  { light.emission_density(emission) } -> std::same_as<EmissionDensity>;
   /// Factor from the mean emission to the power, as `etendue` in light.h. The argument is the cross-section
   /// [m^2] of the scene, which only lights at infinity use.
   { light.etendue(1.0) } -> std::same_as<double>;

@@ -112,13 +112,11 @@ std::size_t IntensityDistribution::memory_bytes(std::size_t gammas, std::size_t 
   return (gammas + planes + 2 * gammas * planes) * sizeof(double);
 }
 
-std::optional<LightSample> PhotometricLight::sample(const Shapes& /*shapes*/,
-                                                    const LightSampleContext& context, Imath::V2f /*u*/,
-                                                    float time) const {
+std::optional<LightSample> PhotometricLight::sample(const LightQuery& query) const {
   std::optional<LightSample> sample =
-      sample_towards_point(moved_position(position, motion.get(), time), context.point);
+      sample_towards_point(moved_position(position, motion.get(), query.time), query.context.point);
   if (!sample) return std::nullopt;
-  const float factor = emission_factor(Imath::V3f(0), -sample->wi, time);
+  const float factor = emission_factor(Imath::V3f(0), -sample->wi, query.time);
   if (!(factor > 0)) return std::nullopt;
   sample->factor *= factor;
   return sample;
@@ -136,9 +134,8 @@ Imath::V3f PhotometricLight::emission_direction(const Imath::V3f& /*normal*/, Im
   return LuminaireFrame(*this, time).to_world(distribution->sample(u));
 }
 
-EmissionDensity PhotometricLight::emission_density(const Imath::V3f& /*normal*/, const Imath::V3f& wo,
-                                                   float /*scene_radius_m*/, float time) const {
-  return {1, distribution->pdf(LuminaireFrame(*this, time).to_local(wo))};
+EmissionDensity PhotometricLight::emission_density(const EmissionQuery& query) const {
+  return {1, distribution->pdf(LuminaireFrame(*this, query.time).to_local(query.wo))};
 }
 
 LightBounds PhotometricLight::bounds(const Shapes& /*shapes*/, double emission) const {

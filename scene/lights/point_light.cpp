@@ -15,9 +15,7 @@ Imath::V3f moved_position(const Imath::V3f& position, const Motion* motion, floa
 
 Imath::V3f moved_direction(const Imath::V3f& direction, const Motion* motion, float time) {
   if (motion == nullptr) return direction;
-  Imath::V3d rotated;
-  motion->since_opening(static_cast<double>(time)).multDirMatrix(Imath::V3d(direction), rotated);
-  return Imath::V3f(rotated);
+  return Imath::V3f(moved_direction(Imath::V3d(direction), motion->since_opening(static_cast<double>(time))));
 }
 
 // Inverse-square falloff, computed in double because the light may be very close.
@@ -40,9 +38,8 @@ LightBounds bounds_of_point(const Imath::V3f& position, const Motion* motion, co
   return {box, box.size().length() / 2, 0, cone, intensity, intensity};
 }
 
-std::optional<LightSample> PointLight::sample(const Shapes& /*shapes*/, const LightSampleContext& context,
-                                              Imath::V2f /*u*/, float time) const {
-  return sample_towards_point(moved_position(position, motion.get(), time), context.point);
+std::optional<LightSample> PointLight::sample(const LightQuery& query) const {
+  return sample_towards_point(moved_position(position, motion.get(), query.time), query.context.point);
 }
 
 Imath::V3f PointLight::emission_direction(const Imath::V3f& /*normal*/, Imath::V2f u, float /*time*/) const {
@@ -50,21 +47,19 @@ Imath::V3f PointLight::emission_direction(const Imath::V3f& /*normal*/, Imath::V
   return direction_about({0, 0, 1}, 2 * u.x, phi);
 }
 
-EmissionDensity PointLight::emission_density(const Imath::V3f& /*normal*/, const Imath::V3f& /*wo*/,
-                                             float /*scene_radius_m*/, float /*time*/) const {
+EmissionDensity PointLight::emission_density(const EmissionQuery& /*query*/) const {
   return {1, 1 / (4 * std::numbers::pi_v<float>)};
 }
 
-std::optional<BasicRay<double>> PointLight::central_ray(const SceneSphere& sphere) const {
+std::optional<BasicRay<double>> PointLight::central_ray(const Ball& sphere) const {
   const Imath::V3d towards = sphere.center - position;
   return BasicRay<double>{position, towards.length() > 0 ? towards.normalized() : Imath::V3d(1, 0, 0)};
 }
 
-std::optional<LightSample> SpotLight::sample(const Shapes& /*shapes*/, const LightSampleContext& context,
-                                             Imath::V2f /*u*/, float time) const {
+std::optional<LightSample> SpotLight::sample(const LightQuery& query) const {
   std::optional<LightSample> sample =
-      sample_towards_point(moved_position(position, motion.get(), time), context.point);
-  if (!sample || !illuminates(-sample->wi, time)) return std::nullopt;
+      sample_towards_point(moved_position(position, motion.get(), query.time), query.context.point);
+  if (!sample || !illuminates(-sample->wi, query.time)) return std::nullopt;
   return sample;
 }
 
@@ -73,9 +68,8 @@ Imath::V3f SpotLight::emission_direction(const Imath::V3f& /*normal*/, Imath::V2
   return direction_about(axis_at(time), u.x * cap, phi);
 }
 
-EmissionDensity SpotLight::emission_density(const Imath::V3f& /*normal*/, const Imath::V3f& wo,
-                                            float /*scene_radius_m*/, float time) const {
-  return {1, illuminates(wo, time) ? cone_pdf(cap) : 0.0F};
+EmissionDensity SpotLight::emission_density(const EmissionQuery& query) const {
+  return {1, illuminates(query.wo, query.time) ? cone_pdf(cap) : 0.0F};
 }
 
 LightBounds SpotLight::bounds(const Shapes& /*shapes*/, double emission) const {

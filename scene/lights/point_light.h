@@ -33,16 +33,14 @@ struct PointLight {
   std::shared_ptr<const Motion> motion = nullptr;  ///< Null if it does not move.
 
   // Functions of `LightModel`.
-  [[nodiscard]] std::optional<LightSample> sample(const Shapes& shapes, const LightSampleContext& context,
-                                                  Imath::V2f u, float time) const;
+  [[nodiscard]] std::optional<LightSample> sample(const LightQuery& query) const;
   [[nodiscard]] Imath::V3f emission_direction(const Imath::V3f& normal, Imath::V2f u, float time) const;
-  [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
-                                                 float scene_radius_m, float time) const;
+  [[nodiscard]] EmissionDensity emission_density(const EmissionQuery& query) const;
   [[nodiscard]] double etendue(double /*across*/) const { return 4 * std::numbers::pi; }
   [[nodiscard]] LightBounds bounds(const Shapes& /*shapes*/, double emission) const {
     return bounds_of_point(position, motion.get(), kEverywhere, emission);
   }
-  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& sphere) const;
+  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const Ball& sphere) const;
   [[nodiscard]] double fan() const { return std::numbers::pi; }
 };
 
@@ -65,14 +63,12 @@ struct SpotLight {
   }
 
   // Functions of `LightModel`.
-  [[nodiscard]] std::optional<LightSample> sample(const Shapes& shapes, const LightSampleContext& context,
-                                                  Imath::V2f u, float time) const;
+  [[nodiscard]] std::optional<LightSample> sample(const LightQuery& query) const;
   [[nodiscard]] float emission_factor(const Imath::V3f& /*normal*/, const Imath::V3f& wo, float time) const {
     return illuminates(wo, time) ? 1.0F : 0.0F;
   }
   [[nodiscard]] Imath::V3f emission_direction(const Imath::V3f& normal, Imath::V2f u, float time) const;
-  [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
-                                                 float scene_radius_m, float time) const;
+  [[nodiscard]] EmissionDensity emission_density(const EmissionQuery& query) const;
   [[nodiscard]] double etendue(double /*across*/) const {
     return 2 * std::numbers::pi * static_cast<double>(cap);
   }
@@ -80,7 +76,7 @@ struct SpotLight {
   [[nodiscard]] std::optional<DirectionCone> cone_at(float time) const {
     return DirectionCone{time > 0 ? axis_at(time) : axis, cap};
   }
-  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& /*sphere*/) const {
+  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const Ball& /*sphere*/) const {
     return BasicRay<double>{position, axis};
   }
   [[nodiscard]] double fan() const;

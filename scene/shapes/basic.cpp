@@ -17,6 +17,15 @@ SurfaceCoordinates coordinates_on(const Sphere& sphere, const Imath::V3d& point,
   return at;
 }
 
+std::optional<Ball> ball_of(const Sphere& sphere) {
+  return Ball{sphere.center, sphere.radius};
+}
+
+double axial_irradiance(const Sphere& sphere, double distance) {
+  const double sine = sphere.radius / distance;
+  return sine < 1 ? std::numbers::pi * sine * sine : 0;
+}
+
 double enclosed_volume(const Sphere& sphere) {
   return 4 * std::numbers::pi / 3 * sphere.radius * sphere.radius * sphere.radius;
 }
@@ -42,11 +51,20 @@ Outline outline(const Sphere& sphere, const Imath::M44d& to_world, const Drawing
   std::vector<Imath::V3d> points;
   for (int i = 0; i <= kOutlineCorners; ++i) {
     const Imath::V3d u = std::cos(outline_angle(i)) * plane.right + std::sin(outline_angle(i)) * plane.up;
-    Imath::V3d local;
-    to_world.transposed().multDirMatrix(u, local);
-    points.push_back((sphere.center + sphere.radius * local.normalized()) * to_world);
+    const Imath::V3d local = moved_direction(u, to_world.transposed()).normalized();
+    points.push_back((sphere.center + sphere.radius * local) * to_world);
   }
   return {points};
+}
+
+Imath::V3d point_at(const Sphere& sphere, const Imath::V2d& uv) {
+  return Imath::V3d(sample_area(sphere, Imath::V2f(uv)).point);
+}
+
+Imath::V2d uv_of(const Sphere& sphere, const Imath::V3d& point) {
+  const Imath::V3d outward = (point - sphere.center) / sphere.radius;
+  const double turn = std::atan2(outward.y, outward.x) / (2 * std::numbers::pi);
+  return {(1 - outward.z) / 2, turn < 0 ? turn + 1 : turn};
 }
 
 void shift(Sphere& sphere, const Imath::V3d& by) {
@@ -68,12 +86,25 @@ SurfaceCoordinates coordinates_on(const Disc& disc, const Imath::V3d& point, std
   return {{0.5 + from_center.dot(u) / size, 0.5 + from_center.dot(v) / size}, u * size, v * size};
 }
 
+Imath::V3d point_at(const Disc& disc, const Imath::V2d& uv) {
+  return Imath::V3d(sample_area(disc, Imath::V2f(uv)).point);
+}
+
+Imath::V2d uv_of(const Disc& disc, const Imath::V3d& point) {
+  const Imath::V3d local = Basis<double>(disc.normal).to_local(point - disc.center) / disc.radius;
+  return square_of_disc({local.x, local.y});
+}
+
 std::optional<FlatFace> flat_face(const Disc& disc) {
   const Basis<double> frame(disc.normal);
   const Imath::V3d across = frame.x * disc.radius;
   const Imath::V3d up = frame.y * disc.radius;
-  const Imath::V3d at = disc.center - across - up;
-  return FlatFace{{at, at + across * 2.0, at + up * 2.0, disc.center + across + up}, true};
+  return FlatFace{disc.center - across - up, across * 2.0, up * 2.0, disc.center, disc.normal, true};
+}
+
+double axial_irradiance(const Disc& disc, double distance) {
+  const double r2 = disc.radius * disc.radius;
+  return std::numbers::pi * r2 / (r2 + distance * distance);
 }
 
 OuterSide outer_side(const Disc& disc) {
@@ -81,7 +112,7 @@ OuterSide outer_side(const Disc& disc) {
 }
 
 Outline outline(const Disc& disc, const Imath::M44d& to_world, const DrawingPlane& /*plane*/) {
-  Imath::V3d side =
+  const Imath::V3d side =
       disc.normal.cross(std::abs(disc.normal.x) < 0.5 ? Imath::V3d(1, 0, 0) : Imath::V3d(0, 1, 0))
           .normalized();
   const Imath::V3d other = disc.normal.cross(side);
@@ -108,9 +139,53 @@ SurfaceCoordinates coordinates_on(const Quad& quad, const Imath::V3d& point, std
   return {{at.first, at.second}, quad.edge_u, quad.edge_v};
 }
 
+Imath::V3d point_at(const Quad& quad, const Imath::V2d& uv) {
+  return quad.corner + quad.edge_u * uv.x + quad.edge_v * uv.y;
+}
+
+// Solves (u edge_u + v edge_v) . edge = (point - corner) . edge for both edges.
+Imath::V2d uv_of(const Quad& quad, const Imath::V3d& point) {
+  const Imath::V3d d = point - quad.corner;
+  const double uu = quad.edge_u.length2();
+  const double uv = quad.edge_u.dot(quad.edge_v);
+  const double vv = quad.edge_v.length2();
+  const double determinant = uu * vv - uv * uv;
+  const double du = d.dot(quad.edge_u);
+  const double dv = d.dot(quad.edge_v);
+  return {(du * vv - dv * uv) / determinant, (dv * uu - du * uv) / determinant};
+}
+
 std::optional<FlatFace> flat_face(const Quad& quad) {
-  const Imath::V3d& at = quad.corner;
-  return FlatFace{{at, at + quad.edge_u, at + quad.edge_v, at + quad.edge_u + quad.edge_v}};
+  return FlatFace{quad.corner, quad.edge_u, quad.edge_v, quad.corner + (quad.edge_u + quad.edge_v) * 0.5,
+                  normal_of(quad)};
+}
+
+// Half the sum over the edges of the angle that each edge subtends, times the cosine of its tilt
+// [Lambert1760]. Let a and b be the vectors from the center to the ends of an edge, n the normal, and d the
+// distance. The plane through the edge and the point has the normal (a + n d) x (b + n d). Its component
+// along n is that of a x b. In this form nothing cancels at large distances.
+double axial_irradiance(const Quad& quad, double distance) {
+  const Imath::V3d normal = normal_of(quad);
+  const Imath::V3d first = (quad.edge_u + quad.edge_v) / -2;
+  const std::array corners{first, first + quad.edge_u, -first, first + quad.edge_v};
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Imath::V3d& a = corners.at(i);
+    const Imath::V3d& b = corners.at((i + 1) % corners.size());
+    const double along = a.cross(b).dot(normal);
+    const double across = std::hypot(along, distance * (b - a).length());
+    sum += std::atan2(across, a.dot(b) + distance * distance) * along / across;
+  }
+  return std::abs(sum) / 2;
+}
+
+TriangleSet triangles_of(const Quad& quad) {
+  const std::array<Imath::V3f, 4> c = corners(quad);
+  return {{c.begin(), c.end()}, {{0, 1, 2}, {3, 2, 1}}, {}, true};
+}
+
+Imath::V3d normal_at(const Quad& quad, std::size_t /*triangle*/) {
+  return normal_of(quad);
 }
 
 OuterSide outer_side(const Quad& quad) {

@@ -6,11 +6,18 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <variant>
 
 #include "materials/bsdf/warp.h"
 #include "scene/shapes/model.h"
 
 namespace abbe {
+
+// Besides the functions of `ShapeModel`, these shapes have:
+// - `axial_irradiance`: irradiance for unit radiance [sr] of a surface that faces the shape, at that distance
+//   [m] from the center along the normal; 0 inside a sphere;
+// - `point_at`: area-preserving map from the unit square to the surface, and its inverse `uv_of`;
+// - `anchor_of` flat shapes: the position by which they are placed.
 
 /// A sphere [m]; its normal points away from the center.
 struct Sphere {
@@ -62,11 +69,15 @@ template <typename T>
 
 [[nodiscard]] SurfaceCoordinates coordinates_on(const Sphere& sphere, const Imath::V3d& point,
                                                 std::size_t triangle);
+[[nodiscard]] std::optional<Ball> ball_of(const Sphere& sphere);
+[[nodiscard]] double axial_irradiance(const Sphere& sphere, double distance);
 [[nodiscard]] double enclosed_volume(const Sphere& sphere);
 [[nodiscard]] bool may_intersect(const Sphere& sphere, const Imath::Box3d& box);
 [[nodiscard]] double thickness(const Sphere& sphere);
 [[nodiscard]] OuterSide outer_side(const Sphere& sphere);
 [[nodiscard]] Outline outline(const Sphere& sphere, const Imath::M44d& to_world, const DrawingPlane& plane);
+[[nodiscard]] Imath::V3d point_at(const Sphere& sphere, const Imath::V2d& uv);
+[[nodiscard]] Imath::V2d uv_of(const Sphere& sphere, const Imath::V3d& point);
 void shift(Sphere& sphere, const Imath::V3d& by);
 void transform(Sphere& sphere, const Imath::M44d& by, double scale);
 
@@ -112,7 +123,19 @@ template <typename T>
 
 [[nodiscard]] SurfaceCoordinates coordinates_on(const Disc& disc, const Imath::V3d& point,
                                                 std::size_t triangle);
+[[nodiscard]] inline const Imath::V3d& normal_of(const Disc& disc) {
+  return disc.normal;
+}
+[[nodiscard]] inline Imath::V3d center_of(const Disc& disc) {
+  return disc.center;
+}
+[[nodiscard]] inline const Imath::V3d& anchor_of(const Disc& disc) {
+  return disc.center;
+}
+[[nodiscard]] Imath::V3d point_at(const Disc& disc, const Imath::V2d& uv);
+[[nodiscard]] Imath::V2d uv_of(const Disc& disc, const Imath::V3d& point);
 [[nodiscard]] std::optional<FlatFace> flat_face(const Disc& disc);
+[[nodiscard]] double axial_irradiance(const Disc& disc, double distance);
 [[nodiscard]] OuterSide outer_side(const Disc& disc);
 [[nodiscard]] Outline outline(const Disc& disc, const Imath::M44d& to_world, const DrawingPlane& plane);
 void shift(Disc& disc, const Imath::V3d& by);
@@ -152,15 +175,13 @@ template <typename T>
           Imath::V3f(c + quad.edge_u + quad.edge_v)};
 }
 
-/// The two triangles that represent a quad, as indices of `corners`.
-inline constexpr std::array<std::array<std::uint32_t, 3>, 2> kQuadTriangles{{{0, 1, 2}, {3, 2, 1}}};
-
 /// Outward unit normal.
 [[nodiscard]] inline Imath::V3d normal_of(const Quad& quad) {
   return quad.edge_u.cross(quad.edge_v).normalized();
 }
 
-/// A quad prepared for sampling: its halves are those two triangles, with corners rounded to float.
+/// A quad prepared for sampling: its halves are the triangles of `triangles_of`, with corners rounded to
+/// float.
 class RenderedQuad {
  public:
   explicit RenderedQuad(const Quad& quad) : normal_(normal_of(quad)) {
@@ -210,10 +231,24 @@ class RenderedQuad {
 
 [[nodiscard]] SurfaceCoordinates coordinates_on(const Quad& quad, const Imath::V3d& point,
                                                 std::size_t triangle);
+[[nodiscard]] Imath::V3d point_at(const Quad& quad, const Imath::V2d& uv);
+[[nodiscard]] Imath::V2d uv_of(const Quad& quad, const Imath::V3d& point);
+[[nodiscard]] inline Imath::V3d center_of(const Quad& quad) {
+  return point_at(quad, {0.5, 0.5});
+}
+[[nodiscard]] inline const Imath::V3d& anchor_of(const Quad& quad) {
+  return quad.corner;
+}
 [[nodiscard]] std::optional<FlatFace> flat_face(const Quad& quad);
+[[nodiscard]] double axial_irradiance(const Quad& quad, double distance);
+[[nodiscard]] TriangleSet triangles_of(const Quad& quad);
+[[nodiscard]] Imath::V3d normal_at(const Quad& quad, std::size_t triangle);
 [[nodiscard]] OuterSide outer_side(const Quad& quad);
 [[nodiscard]] Outline outline(const Quad& quad, const Imath::M44d& to_world, const DrawingPlane& plane);
 void shift(Quad& quad, const Imath::V3d& by);
 void transform(Quad& quad, const Imath::M44d& by, double scale);
+
+/// Shapes of one flat face.
+using FlatShape = std::variant<Quad, Disc>;
 
 }  // namespace abbe

@@ -27,14 +27,6 @@ std::vector<Imath::V3d> box_outline(const Imath::Box3d& box, const DrawingPlane&
   return points;
 }
 
-template <typename S>
-TriangleSet with_face_normals(const S& shape) {
-  TriangleSet set = triangles_of(shape);
-  set.normals.reserve(set.triangles.size());
-  for (std::size_t i = 0; i < set.triangles.size(); ++i) set.normals.emplace_back(normal_at(shape, i));
-  return set;
-}
-
 // barycentric limit: small shapes have no point farther from their edges
 constexpr double kMaxMinWeight = 0.25;
 
@@ -240,23 +232,8 @@ TriangleSet triangles_of(const Mesh& mesh) {
   return set;
 }
 
-TriangleSet triangles_of(const Quad& quad) {
-  const std::array<Imath::V3f, 4> c = corners(quad);
-  return {{c.begin(), c.end()}, {kQuadTriangles.begin(), kQuadTriangles.end()}, {}, true};
-}
-
 Imath::V3d normal_at(const Mesh& mesh, std::size_t triangle) {
   return area_vector(mesh, triangle).normalized();
-}
-Imath::V3d normal_at(const Quad& quad, std::size_t /*triangle*/) {
-  return normal_of(quad);
-}
-
-TriangleSet with_normals(const Mesh& mesh) {
-  return with_face_normals(mesh);
-}
-TriangleSet with_normals(const Quad& quad) {
-  return with_face_normals(quad);
 }
 
 std::size_t memory_bytes_of(const TriangleSet& set) {

@@ -9,7 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include "scene/shapes/basic.h"
 #include "scene/shapes/model.h"
 
 namespace abbe {
@@ -89,25 +88,8 @@ template <typename T>
   return s.cross(e1).dot(e2) / determinant;
 }
 
-/// Triangles that represent a mesh or quad, in float as Embree uses them, in the coordinates of the shape
-/// [m].
-struct TriangleSet {
-  std::vector<Imath::V3f> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// Outward unit normals, one per triangle, from the unrounded vertices; empty in a prototype.
-  std::vector<Imath::V3f> normals;
-  bool is_quad = false;  ///< True if the two triangles are halves of a parallelogram.
-};
-
-/// The triangles of a mesh or quad without normals.
 [[nodiscard]] TriangleSet triangles_of(const Mesh& mesh);
-[[nodiscard]] TriangleSet triangles_of(const Quad& quad);
-/// Outward unit normal of a triangle of a mesh or quad, from the unrounded vertices.
 [[nodiscard]] Imath::V3d normal_at(const Mesh& mesh, std::size_t triangle);
-[[nodiscard]] Imath::V3d normal_at(const Quad& quad, std::size_t triangle);
-/// The triangles of a mesh or quad with their normals.
-[[nodiscard]] TriangleSet with_normals(const Mesh& mesh);
-[[nodiscard]] TriangleSet with_normals(const Quad& quad);
 
 /// Distance along a ray, in units of its direction, to the plane of a triangle; NaN or infinite if it is
 /// parallel.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -42,10 +43,27 @@ struct SurfaceCoordinates {
   Imath::V3d dp_dv{0, 0, 0};
 };
 
+/// A ball [m].
+struct Ball {
+  Imath::V3d center;
+  double radius;
+};
+
 /// A flat shape: a parallelogram, or the disc inscribed in a square.
 struct FlatFace {
-  std::array<Imath::V3d, 4> corners;  ///< The last one is opposite to the first.
-  bool round = false;                 ///< True if the shape is the inscribed disc.
+  Imath::V3d corner, edge_u, edge_v;
+  Imath::V3d center;
+  Imath::V3d normal;   ///< Outward unit normal.
+  bool round = false;  ///< True if the shape is the inscribed disc.
+};
+
+/// Triangles that represent a shape, in float as Embree uses them, in the coordinates of the shape [m].
+struct TriangleSet {
+  std::vector<Imath::V3f> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  /// Outward unit normals, one per triangle, from the unrounded vertices; empty in a prototype.
+  std::vector<Imath::V3f> normals;
+  bool is_quad = false;  ///< True if the two triangles are halves of a parallelogram.
 };
 
 /// A cone that contains the outward normals of a shape.
@@ -71,8 +89,9 @@ struct PlaneCoordinates {
   }
 };
 /// A direction under the linear part of a matrix for row vectors.
-[[nodiscard]] inline Imath::V3d moved_direction(const Imath::V3d& v, const Imath::M44d& by) {
-  Imath::V3d result;
+template <typename T>
+[[nodiscard]] Imath::Vec3<T> moved_direction(const Imath::Vec3<T>& v, const Imath::Matrix44<T>& by) {
+  Imath::Vec3<T> result;
   by.multDirMatrix(v, result);
   return result;
 }
@@ -106,6 +125,11 @@ template <typename S>
 /// The face of a flat shape; nothing for other shapes.
 template <typename S>
 [[nodiscard]] std::optional<FlatFace> flat_face(const S& /*shape*/) {
+  return std::nullopt;
+}
+/// The ball whose surface the shape is; nothing for other shapes.
+template <typename S>
+[[nodiscard]] std::optional<Ball> ball_of(const S& /*shape*/) {
   return std::nullopt;
 }
 /// Lower bound of the distance [m] between two parts of the surface that face opposite directions. It has no

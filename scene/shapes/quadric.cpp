@@ -284,8 +284,7 @@ Outline outline(const Quadric& quadric, const Imath::M44d& to_world, const Drawi
           (quadric.origin + quadric.axis * z + radial_direction(quadric, outline_angle(i)) * radius) *
           to_world);
   }
-  V3d view;
-  to_world.inverse().multDirMatrix(plane.right.cross(plane.up), view);
+  const V3d view = moved_direction(plane.right.cross(plane.up), to_world.inverse());
   const V3d side = quadric.axis.cross(view);
   if (side.length() < 1e-6 * view.length()) return lines;
   constexpr int kSteps = 16;

@@ -43,8 +43,6 @@ template <typename T>
 [[nodiscard]] Imath::Box3d bounds(const Quadric& quadric);
 /// Samples a point uniformly by area, by `u` in [0, 1]^2.
 [[nodiscard]] SurfacePoint sample_area(const Quadric& quadric, Imath::V2f u);
-/// u is the azimuth around the axis divided by 2 pi, counted from x of `Basis(axis)`; v runs along the axis.
-/// On caps v is the distance from the axis divided by the cap's radius.
 [[nodiscard]] SurfaceCoordinates coordinates_on(const Quadric& quadric, const Imath::V3d& point,
                                                 std::size_t triangle);
 [[nodiscard]] double enclosed_volume(const Quadric& quadric);

@@ -7,21 +7,10 @@
 namespace abbe {
 namespace {
 
-[[noreturn]] void throw_cannot_emit() {
-  throw Error(ErrorCode::internal, "instance", "an instance has no area to emit from");
-}
-
-// Only meshes are sampled by a table.
-SurfacePoint sample_shape(const Mesh& mesh, const std::vector<float>& triangle_cdf, Imath::V2f u) {
-  return sample_area(mesh, triangle_cdf, u);
-}
-SurfacePoint sample_shape(const PlacedShape& /*placed*/, const std::vector<float>& /*triangle_cdf*/,
-                          Imath::V2f /*u*/) {
-  throw_cannot_emit();
-}
-template <typename S>
-SurfacePoint sample_shape(const S& shape, const std::vector<float>& /*triangle_cdf*/, Imath::V2f u) {
-  return sample_area(shape, u);
+void require_surface(const Shape& shape) {
+  const auto* placed = std::get_if<PlacedShape>(&shape);
+  if (placed != nullptr && !placed->at->motion)
+    throw Error(ErrorCode::internal, "instance", "an instance has no area to emit from");
 }
 
 // The placement of an instance at that time.
@@ -30,25 +19,7 @@ const Placement& current_placement(const PlacedShape& placed, float time, std::o
   return moved.emplace(placement_at(*placed.at, static_cast<double>(time)));
 }
 
-SurfaceCoordinates coordinates_on(const PlacedShape& placed, const Placement& now, const Imath::V3d& point,
-                                  std::size_t triangle) {
-  const Imath::V3d inside = point * now.to_prototype;
-  SurfaceCoordinates at = std::visit(
-      [&](const auto& shape) { return coordinates_on(shape, inside, triangle); }, placed.of->shape);
-  for (Imath::V3d* tangent : {&at.dp_du, &at.dp_dv}) {
-    const Imath::V3d moved = *tangent;
-    now.to_world.multDirMatrix(moved, *tangent);
-  }
-  return at;
-}
-
 }  // namespace
-
-// A moving shape is rigid, so that its prototype has the same area.
-static double area(const PlacedShape& placed) {
-  if (!placed.at->motion) throw_cannot_emit();
-  return std::visit([](const auto& s) { return area(s); }, placed.of->shape);
-}
 
 template <typename T>
 std::optional<ShapeHit<T>> intersect(const Shape& shape, const BasicRay<T>& ray, T t_min) {
@@ -72,15 +43,22 @@ bool may_intersect(const Shape& shape, const Imath::Box3d& box) {
   return std::visit([&](const auto& s) { return may_intersect(s, box); }, shape);
 }
 
+// A moving shape is rigid, so that its prototype has the same area.
 double area(const Shape& shape) {
-  return std::visit([](const auto& s) { return area(s); }, shape);
+  require_surface(shape);
+  return visit_plain([](const auto& s) { return area(s); }, shape);
 }
 
 SurfacePoint sample_area(const Shape& shape, const std::vector<float>& triangle_cdf, Imath::V2f u) {
-  const auto* placed = std::get_if<PlacedShape>(&shape);
-  if (placed != nullptr && placed->at->motion)
-    return std::visit([&](const auto& s) { return sample_shape(s, triangle_cdf, u); }, placed->of->shape);
-  return std::visit([&](const auto& s) { return sample_shape(s, triangle_cdf, u); }, shape);
+  require_surface(shape);
+  return visit_plain(
+      [&]<typename S>(const S& s) {
+        if constexpr (std::is_same_v<S, Mesh>)
+          return sample_area(s, triangle_cdf, u);
+        else
+          return sample_area(s, u);
+      },
+      shape);
 }
 
 std::vector<float> triangle_cdf(const Shape& shape) {
@@ -94,8 +72,14 @@ OuterSide outer_side(const Shape& shape) {
 }
 
 Imath::V3d triangle_normal(const PlainShape& shape, std::size_t triangle) {
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) return normal_at(*mesh, triangle);
-  return normal_at(std::get<Quad>(shape), triangle);
+  return std::visit(
+      [triangle]<typename S>(const S& s) -> Imath::V3d {
+        if constexpr (Triangulated<S>)
+          return normal_at(s, triangle);
+        else
+          throw Error(ErrorCode::internal, "shape", "a curved shape has no triangles");
+      },
+      shape);
 }
 
 Outline outline(const Shape& shape, const DrawingPlane& plane) {
@@ -127,15 +111,15 @@ std::optional<Imath::V3d> interpolated_normal(const Shape& shape, const Imath::V
 
 SurfaceCoordinates coordinates(const Shape& shape, const Imath::V3d& point, std::size_t triangle,
                                float time) {
-  const auto on = [&](const auto& s) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(s)>, PlacedShape>) {
-      std::optional<Placement> moved;
-      return coordinates_on(s, current_placement(s, time, moved), point, triangle);
-    } else {
-      return coordinates_on(s, point, triangle);
-    }
-  };
-  return std::visit(on, shape);
+  const auto* placed = std::get_if<PlacedShape>(&shape);
+  std::optional<Placement> moved;
+  const Placement* now = placed != nullptr ? &current_placement(*placed, time, moved) : nullptr;
+  const Imath::V3d inside = now != nullptr ? point * now->to_prototype : point;
+  SurfaceCoordinates at =
+      visit_plain([&](const auto& s) { return coordinates_on(s, inside, triangle); }, shape);
+  if (now != nullptr)
+    for (Imath::V3d* tangent : {&at.dp_du, &at.dp_dv}) *tangent = moved_direction(*tangent, now->to_world);
+  return at;
 }
 
 }  // namespace abbe

@@ -26,19 +26,24 @@
 
 namespace abbe {
 
-/// A variant with the alternatives of two others.
-template <typename First, typename Second>
+/// A variant with the alternatives of several others.
+template <typename... Variants>
 struct Joined;
-template <typename... First, typename... Second>
-struct Joined<std::variant<First...>, std::variant<Second...>> {
-  using type = std::variant<First..., Second...>;
+template <typename... All>
+struct Joined<std::variant<All...>> {
+  using type = std::variant<All...>;
 };
+template <typename... First, typename... Second, typename... Others>
+struct Joined<std::variant<First...>, std::variant<Second...>, Others...>
+    : Joined<std::variant<First..., Second...>, Others...> {};
 
-/// Shapes that are rendered as triangles with float vertices.
+/// Shapes that are rendered as triangles with float vertices: `triangles_of` without their normals.
+/// `normal_at` is the outward unit normal of one triangle, from the unrounded vertices.
 using TriangulatedShape = std::variant<Mesh, Quad>;
 template <typename S>
 concept Triangulated = requires(const S& shape) {
   triangles_of(shape);
+  normal_at(shape, std::size_t{});
 };
 /// Shapes whose own formula in double precision decides where a ray hits them.
 using CurvedShape = std::variant<Sphere, Disc, Quadric>;
@@ -66,6 +71,7 @@ concept ShapeModel = SampledByArea<S> && requires(const S& shape) {
   { enclosed_volume(shape) } -> std::same_as<double>;
   { may_intersect(shape, Imath::Box3d()) } -> std::same_as<bool>;
   { flat_face(shape) } -> std::same_as<std::optional<FlatFace>>;
+  { ball_of(shape) } -> std::same_as<std::optional<Ball>>;
   { thickness(shape) } -> std::same_as<double>;
   { outer_side(shape) } -> std::same_as<OuterSide>;
 };
@@ -80,7 +86,6 @@ struct Prototype {
   PlainShape shape;
   Imath::Box3d bounds;
 };
-/// The prototype of a shape, with its bounding box.
 [[nodiscard]] std::shared_ptr<const Prototype> make_prototype(PlainShape shape);
 /// An invertible affine map between a prototype's coordinates and the world, for row vectors. It may mirror;
 /// normals stay outward. The maps of a moving shape are those of time 0, and `placement_at` gives the others.
@@ -125,9 +130,16 @@ auto visit_plain(const Visitor& visitor, const Shape& shape) {
   return visit_plain([](const auto& s) { return Triangulated<std::decay_t<decltype(s)>>; }, shape);
 }
 
-/// True if the shape, or the prototype of an instance, is one flat face: a quad or disc.
+/// The face of a flat shape, or of the prototype of an instance in its own coordinates; nothing for others.
+[[nodiscard]] inline std::optional<FlatFace> flat_face(const Shape& shape) {
+  return visit_plain([](const auto& s) { return flat_face(s); }, shape);
+}
 [[nodiscard]] inline bool is_flat(const Shape& shape) {
-  return visit_plain([](const auto& s) { return flat_face(s).has_value(); }, shape);
+  return flat_face(shape).has_value();
+}
+/// The ball of a sphere, or of the prototype of an instance in its own coordinates; nothing for others.
+[[nodiscard]] inline std::optional<Ball> ball_of(const Shape& shape) {
+  return visit_plain([](const auto& s) { return ball_of(s); }, shape);
 }
 /// True if the shape, or the prototype of an instance, consists of flat faces, as meshes do too.
 [[nodiscard]] inline bool has_faces(const Shape& shape) {
@@ -152,9 +164,7 @@ auto visit_plain(const Visitor& visitor, const Shape& shape) {
 template <typename T>
 [[nodiscard]] BasicRay<T> to_prototype(const Placement& placement, const BasicRay<T>& ray) {
   const Imath::Matrix44<T> map(placement.to_prototype);
-  BasicRay<T> moved{ray.origin * map, {}, ray.t_max};
-  map.multDirMatrix(ray.direction, moved.direction);
-  return moved;
+  return {ray.origin * map, moved_direction(ray.direction, map), ray.t_max};
 }
 
 /// The ray, at its time, in the coordinates in which the scene file describes the shape, minus
@@ -173,9 +183,7 @@ template <typename T>
 /// the handedness of the map. Unit length.
 template <typename T>
 [[nodiscard]] Imath::Vec3<T> normal_to_world(const Placement& placement, const Imath::Vec3<T>& normal) {
-  Imath::Vec3<T> moved;
-  Imath::Matrix44<T>(placement.to_prototype).transposed().multDirMatrix(normal, moved);
-  return moved.normalized();
+  return moved_direction(normal, Imath::Matrix44<T>(placement.to_prototype).transposed()).normalized();
 }
 
 /// Nearest hit with an instance of a shape at t in (`t_min`, ray.t_max), in world coordinates. The placement

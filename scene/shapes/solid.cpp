@@ -3,14 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <limits>
-#include <numbers>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -23,91 +19,62 @@ namespace {
 
 /// A triangle at one of its edges. A vertex is identified by the index of the first vertex at its position.
 struct EdgeSide {
-  std::uint32_t high;      ///< End of the edge with the higher index.
-  std::uint32_t opposite;  ///< Third vertex of the triangle.
+  std::uint32_t low, high;  ///< Ends of the edge, by index.
+  std::uint32_t opposite;   ///< Third vertex of the triangle.
   std::uint32_t triangle;  ///< Index into `Mesh::triangles`, or that size plus an index into `Mesh::slivers`.
-  bool forward;            ///< True if the triangle's winding runs from the lower end to the higher.
+  bool forward;            ///< True if the triangle's winding runs from `low` to `high`.
 };
-
-/// The edges of a mesh's triangles. Slivers join edges too; their indices follow those of the triangles. A
-/// triangle with two corners at one position has no edges. The mesh need not outlive it.
-class EdgeTable {
- public:
-  explicit EdgeTable(const Mesh& mesh);
-
-  /// Calls `visit` once for each edge with a span of its sides, at least one. Sides with the same third
-  /// vertex are adjacent.
-  template <typename Visit>
-  void for_each(Visit&& visit) const {
-    for (std::size_t low = 0; low + 1 < first_.size(); ++low)
-      for (std::size_t i = first_[low]; i < first_[low + 1];) {
-        std::size_t end = i + 1;
-        while (end < first_[low + 1] && sides_[end].high == sides_[i].high) ++end;
-        visit(std::span<const EdgeSide>(&sides_[i], end - i));
-        i = end;
-      }
-  }
-
- private:
-  std::vector<std::size_t>
-      // first side of each edge by its lower end, and an end marker
-      first_;
-  std::vector<EdgeSide> sides_;
-};
+/// Sides of the edges of a mesh, in order of the edge and then of the third vertex.
+using EdgeSides = std::vector<EdgeSide>;
 
 using Corners = std::array<std::uint32_t, 3>;
 
-std::size_t hash(const Imath::V3d& v) {
-  std::uint64_t mixed = 0;
-  for (const double x : {v.x, v.y, v.z}) {
-    mixed = (mixed ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15U;  // maps -0 to 0
-    mixed ^= mixed >> 32;
-  }
-  return mixed;
-}
-
 // Returns for each vertex the index of the first one at the same position.
 std::vector<std::uint32_t> welded(const std::vector<Imath::V3d>& vertices) {
-  constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> table(std::bit_ceil(2 * vertices.size() + 1), kFree);
+  std::vector<std::uint32_t> order(vertices.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(
+      order, {}, [&](std::uint32_t i) { return std::tuple(vertices[i].x, vertices[i].y, vertices[i].z, i); });
   std::vector<std::uint32_t> first(vertices.size());
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    std::size_t at = hash(vertices[i]) & (table.size() - 1);
-    while (table[at] != kFree && vertices[table[at]] != vertices[i]) at = (at + 1) & (table.size() - 1);
-    if (table[at] == kFree) table[at] = i;
-    first[i] = table[at];
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool repeats = i > 0 && vertices[order[i]] == vertices[order[i - 1]];
+    first[order[i]] = repeats ? first[order[i - 1]] : order[i];
   }
   return first;
 }
 
-template <typename Visit>
-void for_each_side(const Mesh& mesh, const std::vector<std::uint32_t>& first, Visit&& visit) {
+// Slivers join edges too; their indices follow those of the triangles. A triangle with two corners at one
+// position has no edges.
+EdgeSides edges_of(const Mesh& mesh) {
+  const std::vector<std::uint32_t> first = welded(mesh.vertices);
+  EdgeSides sides;
+  sides.reserve(3 * (mesh.triangles.size() + mesh.slivers.size()));
   std::uint32_t triangle = 0;
   for (const auto* list : {&mesh.triangles, &mesh.slivers})
     for (const Corners& corners : *list) {
       const Corners at{first[corners[0]], first[corners[1]], first[corners[2]]};
       const bool joins = at[0] != at[1] && at[1] != at[2] && at[2] != at[0];
       for (std::size_t i = 0; joins && i < 3; ++i) {
-        const std::uint32_t from = at[i];
-        const std::uint32_t to = at[(i + 1) % 3];
-        visit(std::min(from, to), EdgeSide{std::max(from, to), at[(i + 2) % 3], triangle, from < to});
+        const auto [low, high] = std::minmax(at[i], at[(i + 1) % 3]);
+        sides.push_back({low, high, at[(i + 2) % 3], triangle, low == at[i]});
       }
       ++triangle;
     }
+  std::ranges::sort(sides, {}, [](const EdgeSide& side) {
+    return std::tie(side.low, side.high, side.opposite, side.triangle);
+  });
+  return sides;
 }
 
-EdgeTable::EdgeTable(const Mesh& mesh) : first_(mesh.vertices.size() + 1, 0) {
-  const std::vector<std::uint32_t> first = welded(mesh.vertices);
-  for_each_side(mesh, first, [&](std::uint32_t low, const EdgeSide&) { ++first_[low]; });
-  std::size_t total = 0;
-  for (std::size_t& end : first_) end = total += end;
-  sides_.resize(total);
-  for_each_side(mesh, first, [&](std::uint32_t low, const EdgeSide& side) { sides_[--first_[low]] = side; });
-  for (std::size_t low = 0; low + 1 < first_.size(); ++low)
-    std::sort(&sides_[0] + first_[low], &sides_[0] + first_[low + 1],
-              [](const EdgeSide& a, const EdgeSide& b) {
-                return std::tie(a.high, a.opposite, a.triangle) < std::tie(b.high, b.opposite, b.triangle);
-              });
+// Calls `visit` once for each edge with a span of its sides, at least one.
+template <typename Visit>
+void for_each_edge(const EdgeSides& sides, Visit&& visit) {
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) ++end;
+    visit(std::span<const EdgeSide>(&sides[i], end - i));
+    i = end;
+  }
 }
 
 /// Union-find over triangles. Each triangle winds with or against the first triangle of its set.
@@ -149,6 +116,7 @@ class Windings {
 /// Triangles connected by edges of two triangles, without an open edge.
 struct Component {
   std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> against = {};  ///< Those that wind against the first one.
   Imath::Box3d box = {};
   double volume = 0;  ///< Negative when it faces inward.
   bool turned = false;
@@ -173,9 +141,9 @@ struct Turning {
 
 // Marks triangles with the corners and the winding of an earlier one. A triangle has three edges; it is
 // tested at the edge opposite its last corner.
-std::vector<bool> repeated_triangles(const Mesh& mesh, const EdgeTable& edges) {
+std::vector<bool> repeated_triangles(const Mesh& mesh, const EdgeSides& edges) {
   std::vector<bool> repeated(mesh.triangles.size() + mesh.slivers.size(), false);
-  edges.for_each([&](std::span<const EdgeSide> sides) {
+  for_each_edge(edges, [&](std::span<const EdgeSide> sides) {
     auto run = sides.begin();
     for (auto side = sides.begin(); side != sides.end(); ++side) {
       if (side->opposite != run->opposite) run = side;
@@ -206,10 +174,10 @@ std::size_t remove_triangles(Mesh& mesh, const std::vector<bool>& marked) {
 
 // Marks the sets that cannot be oriented consistently, by their first triangles. At edges with more than two
 // triangles, the windings within a set must cancel.
-std::vector<bool> flawed_sets(const EdgeTable& edges, Windings& sets, std::size_t triangles) {
+std::vector<bool> flawed_sets(const EdgeSides& edges, Windings& sets, std::size_t triangles) {
   std::vector<bool> flawed(triangles, false);
   std::vector<std::pair<std::uint32_t, int>> ends;
-  edges.for_each([&](std::span<const EdgeSide> sides) {
+  for_each_edge(edges, [&](std::span<const EdgeSide> sides) {
     ends.clear();
     for (const EdgeSide& side : sides) {
       const auto [first, against] = sets.find(side.triangle);
@@ -226,55 +194,44 @@ std::vector<bool> flawed_sets(const EdgeTable& edges, Windings& sets, std::size_
   return flawed;
 }
 
-/// The closed components, and for each the triangles that wind against its first triangle.
-struct ClosedComponents {
-  std::vector<Component> all;
-  std::vector<std::vector<std::uint32_t>> against;
-};
-
-ClosedComponents closed_components(const EdgeTable& edges, std::uint32_t count) {
+std::vector<Component> closed_components(const EdgeSides& edges, std::uint32_t count) {
   Windings sets(count);
-  edges.for_each([&sets](std::span<const EdgeSide> sides) {
+  for_each_edge(edges, [&sets](std::span<const EdgeSide> sides) {
     if (sides.size() == 2)
       sets.join(sides[0].triangle, sides[1].triangle, sides[0].forward == sides[1].forward);
   });
   const std::vector<bool> flawed = flawed_sets(edges, sets, count);
   // index of the component, by the first triangle of its set
   std::vector<std::uint32_t> number(count, count);
-  ClosedComponents found;
+  std::vector<Component> found;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto [first, opposed] = sets.find(i);
     if (flawed[first]) continue;
     if (number[first] == count) {
-      number[first] = static_cast<std::uint32_t>(found.all.size());
-      found.all.emplace_back();
-      found.against.emplace_back();
+      number[first] = static_cast<std::uint32_t>(found.size());
+      found.emplace_back();
     }
-    found.all[number[first]].triangles.push_back(i);
-    if (opposed) found.against[number[first]].push_back(i);
+    found[number[first]].triangles.push_back(i);
+    if (opposed) found[number[first]].against.push_back(i);
   }
   return found;
 }
 
-// Flips triangles until each closed component is consistent. Returns the components and the number of flipped
-// triangles.
-std::pair<std::vector<Component>, std::size_t> rewound_components(const EdgeTable& edges, Turning& turning) {
-  auto [components, against] = closed_components(edges, static_cast<std::uint32_t>(turning.turned.size()));
+// Flips triangles until each component is consistent. Returns the number of flipped triangles.
+std::size_t rewind(const std::vector<Component>& components, Turning& turning) {
   std::size_t rewound = 0;
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    std::vector<std::uint32_t>& fewer = against[i];
-    if (2 * fewer.size() > components[i].triangles.size()) {
-      std::vector<std::uint32_t> others;
-      std::set_difference(components[i].triangles.begin(), components[i].triangles.end(), fewer.begin(),
-                          fewer.end(), std::back_inserter(others));
-      fewer = std::move(others);
+  for (const Component& component : components) {
+    std::vector<std::uint32_t> fewer = component.against;
+    if (2 * fewer.size() > component.triangles.size()) {
+      fewer.clear();
+      std::ranges::set_difference(component.triangles, component.against, std::back_inserter(fewer));
     }
     for (const std::uint32_t triangle : fewer) {
       turning.turn(triangle);
       rewound += triangle < turning.mesh.triangles.size() ? 1 : 0;
     }
   }
-  return {std::move(components), rewound};
+  return rewound;
 }
 
 void measure(const Mesh& mesh, Component& component) {
@@ -381,9 +338,9 @@ void turn_outward(std::vector<Component>& components, Turning& turning, SolidRep
   }
 }
 
-void count_faults(const EdgeTable& edges, const Turning& turning, SolidReport& report) {
+void count_faults(const EdgeSides& edges, const Turning& turning, SolidReport& report) {
   const std::size_t triangles = turning.mesh.triangles.size();
-  edges.for_each([&](std::span<const EdgeSide> sides) {
+  for_each_edge(edges, [&](std::span<const EdgeSide> sides) {
     const auto forward = std::count_if(sides.begin(), sides.end(), [&](const EdgeSide& side) {
       return side.forward != turning.turned[side.triangle];
     });
@@ -402,22 +359,23 @@ void count_faults(const EdgeTable& edges, const Turning& turning, SolidReport& r
 
 SolidReport make_solid(Mesh& mesh) {
   SolidReport report;
-  std::optional<EdgeTable> edges(mesh);
-  report.repeated = remove_triangles(mesh, repeated_triangles(mesh, *edges));
-  if (report.repeated > 0) edges.emplace(mesh);
+  EdgeSides edges = edges_of(mesh);
+  report.repeated = remove_triangles(mesh, repeated_triangles(mesh, edges));
+  if (report.repeated > 0) edges = edges_of(mesh);
   Turning turning(mesh);
-  auto [components, rewound] = rewound_components(*edges, turning);
-  report.rewound = rewound;
+  std::vector<Component> components =
+      closed_components(edges, static_cast<std::uint32_t>(turning.turned.size()));
+  report.rewound = rewind(components, turning);
   for (Component& component : components) measure(mesh, component);
   turn_outward(components, turning, report);
-  count_faults(*edges, turning, report);
+  count_faults(edges, turning, report);
   return report;
 }
 
 double enclosed_volume(const Mesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size() + mesh.slivers.size());
   double largest = 0;
-  for (Component& component : closed_components(EdgeTable(mesh), count).all) {
+  for (Component& component : closed_components(edges_of(mesh), count)) {
     measure(mesh, component);
     largest = std::max(largest, std::abs(component.volume));
   }

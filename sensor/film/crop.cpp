@@ -2,14 +2,23 @@
 
 #include <algorithm>
 #include <charconv>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "io/text.h"
 
 namespace abbe {
+namespace {
+
+// The recorded crop; nothing if the film has all pixels, or if the record is malformed or exceeds the image.
+std::optional<Crop> recorded_crop(const Image& film) {
+  const auto entry = film.metadata.find(kCropKey);
+  if (entry == film.metadata.end()) return std::nullopt;
+  const std::optional<Crop> crop = parse_crop(entry->second);
+  return crop && crop->x1 <= film.width && crop->y1 <= film.height ? crop : std::nullopt;
+}
+
+}  // namespace
 
 std::optional<Crop> common_pixels(const Crop& a, const Crop& b) {
   const Crop both{std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
@@ -36,13 +45,6 @@ std::string to_text(const std::vector<Crop>& areas) {
   std::string text;
   for (const Crop& area : areas) text += (text.empty() ? "" : " ") + to_text(area);
   return text;
-}
-
-std::optional<Crop> recorded_crop(const Image& film) {
-  const auto entry = film.metadata.find(kCropKey);
-  if (entry == film.metadata.end()) return std::nullopt;
-  const std::optional<Crop> crop = parse_crop(entry->second);
-  return crop && crop->x1 <= film.width && crop->y1 <= film.height ? crop : std::nullopt;
 }
 
 std::vector<Crop> recorded_areas(const Image& film) {

@@ -38,12 +38,9 @@ inline constexpr const char* kAreasKey = "areas";
 /// Text of several rectangles, separated by spaces.
 [[nodiscard]] std::string to_text(const std::vector<Crop>& areas);
 
-/// Crop that a film or a file developed from it records; nothing if it has all pixels, or if the record is
-/// malformed or exceeds the image.
-[[nodiscard]] std::optional<Crop> recorded_crop(const Image& film);
-
-/// Recorded pixels of a film as disjoint rectangles. A film merged from parts can have several; without a
-/// crop, one rectangle contains all pixels. A malformed `kAreasKey` counts as absent.
+/// Recorded pixels of a film, or of a file developed from it, as disjoint rectangles. A film merged from
+/// parts can have several; without a crop, one rectangle contains all pixels. A malformed attribute counts as
+/// absent.
 [[nodiscard]] std::vector<Crop> recorded_areas(const Image& film);
 
 /// Indices y width + x of the recorded pixels, area by area and row by row.

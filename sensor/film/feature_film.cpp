@@ -1,7 +1,7 @@
 #include "sensor/film/feature_film.h"
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,20 +17,13 @@ namespace {
 constexpr int kUnitExponent = -60;
 
 std::vector<std::string> planes_of(Feature feature, std::span<const std::string> film_planes) {
-  switch (feature) {
-    case Feature::depth:
-      return {"depth.Z"};
-    case Feature::position:
-      return {"P.X", "P.Y", "P.Z"};
-    case Feature::normal:
-      return {"N.X", "N.Y", "N.Z"};
-    case Feature::shading_normal:
-      return {"Ns.X", "Ns.Y", "Ns.Z"};
-    case Feature::id:
-      return {"Id"};
-    case Feature::albedo:
-      break;
-  }
+  static const std::map<Feature, std::vector<std::string>> kPlanes{
+      {Feature::depth, {"depth.Z"}},
+      {Feature::position, {"P.X", "P.Y", "P.Z"}},
+      {Feature::normal, {"N.X", "N.Y", "N.Z"}},
+      {Feature::shading_normal, {"Ns.X", "Ns.Y", "Ns.Z"}},
+      {Feature::id, {"Id"}}};
+  if (feature != Feature::albedo) return kPlanes.at(feature);
   std::vector<std::string> planes;
   for (const std::string& plane : intensities(film_planes)) planes.push_back("Albedo." + plane);
   return planes;
@@ -47,20 +40,11 @@ FilmShape feature_shape(const FilmShape& film, std::size_t planes) {
 
 // Value of a feature in a pixel from the sum over its samples, `hits` of which hit a surface.
 double pixel_value(std::optional<Feature> feature, double sum, double hits, double samples) {
-  if (!feature) return samples > 0 ? sum / samples : 0;
-  switch (*feature) {
-    case Feature::depth:
-      return hits > 0 ? sum / hits : static_cast<double>(kFeatureDepthOfNothing);
-    case Feature::position:
-      return hits > 0 ? sum / hits : 0;
-    case Feature::normal:
-    case Feature::shading_normal:
-    case Feature::albedo:
-      return samples > 0 ? sum / samples : 0;
-    case Feature::id:
-      return sum;
-  }
-  return 0;
+  if (feature == Feature::id) return sum;
+  const bool is_of_hits = feature == Feature::depth || feature == Feature::position;
+  const double count = is_of_hits ? hits : samples;
+  if (count > 0) return sum / count;
+  return feature == Feature::depth ? static_cast<double>(kFeatureDepthOfNothing) : 0;
 }
 
 }  // namespace

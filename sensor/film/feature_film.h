@@ -42,18 +42,16 @@ struct FeaturePlane {
 [[nodiscard]] std::vector<FeaturePlane> feature_planes(std::span<const Feature> features,
                                                        std::span<const std::string> film_planes);
 
-/// Depth of pixels whose samples hit no surface.
-inline constexpr float kFeatureDepthOfNothing = 1e10F;
+inline constexpr float kFeatureDepthOfNothing = 1e10F;  ///< Depth of pixels whose samples hit no surface.
 
 /// Exact sums of the features of first hits, one plane each. They have a single replicate, since they need no
 /// variance. Their own unit resolves lengths and directions to 2^-60.
 class FeatureFilm {
  public:
-  /// Creates feature sums for a film of this shape with these planes. Throws Error{resource} if memory does
-  /// not suffice, and like `feature_planes`.
+  /// Throws Error{resource} if memory does not suffice, and like `feature_planes`.
   FeatureFilm(std::vector<Feature> features, const FilmShape& film, std::span<const std::string> film_planes);
-  /// Feature film whose sums have these bytes, or nothing if their number does not fit the shape. Throws like
-  /// the constructor.
+  /// Feature film with the bytes of its sums; nothing if their number does not fit. Throws like the
+  /// constructor.
   [[nodiscard]] static std::optional<FeatureFilm> from_bytes(std::vector<Feature> features,
                                                              const FilmShape& film,
                                                              std::span<const std::string> film_planes,
@@ -85,8 +83,7 @@ class FeatureFilm {
   Film sums_;
 };
 
-/// Memory [bytes] of the feature sums for a film of this shape with these planes; 0 without features. Throws
-/// like `feature_planes`.
+/// Memory of the feature sums [bytes]; 0 without features. Throws like `feature_planes`.
 [[nodiscard]] std::size_t bytes_of_features(std::span<const Feature> features, const FilmShape& film,
                                             std::span<const std::string> film_planes);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <numeric>
 
@@ -227,8 +226,7 @@ double Film::samples() const {
 }
 
 int Film::filled_replicates() const {
-  return static_cast<int>(
-      std::count_if(samples_.begin(), samples_.end(), [](std::uint64_t n) { return n > 0; }));
+  return static_cast<int>(std::ranges::count_if(samples_, [](std::uint64_t n) { return n > 0; }));
 }
 
 double Film::value(std::size_t pixel, int replicate, int channel) const {

@@ -18,8 +18,8 @@ namespace abbe {
 
 __extension__ using Int128 = __int128;
 
-/// Conversion between doubles and fixed point in units of 2^`unit_exponent`, rounded to nearest. The caller
-/// ensures that `value` is finite and |value| < 2^(unit_exponent + 126).
+/// Conversion between doubles and fixed point in units of 2^`unit_exponent`, rounded to nearest. `value` must
+/// be finite and |value| < 2^(unit_exponent + 126).
 [[nodiscard]] Int128 to_fixed(double value, int unit_exponent);
 [[nodiscard]] double from_fixed(Int128 fixed, int unit_exponent);
 /// Adds to a sum. Returns false on overflow, and then leaves the sum unchanged.
@@ -47,7 +47,7 @@ struct FilmShape {
 
 /// Pixels for which a film of this shape has sums.
 [[nodiscard]] Crop pixels_of(const FilmShape& shape);
-/// Memory [bytes] of the sums of a film of this shape.
+/// Memory of the sums of such a film.
 [[nodiscard]] std::size_t bytes_of_sums(const FilmShape& shape);
 
 /// Sums of film values per pixel, channel and replicate in 128-bit fixed point. Integer addition is
@@ -72,13 +72,13 @@ class Film {
   /// True if a value is finite and small enough for the film.
   [[nodiscard]] bool holds(double value) const { return std::abs(value) < limit_; }
 
-  /// Sets the number of samples per pixel of each replicate, one element each. They are 0 in a new film.
+  /// Sets the number of samples per pixel of each replicate, 0 in a new film.
   void set_samples(std::vector<std::uint64_t> per_replicate);
-  /// Adds the sums of a film that differs at most in its crop, for the pixels that both have. The caller adds
-  /// up the samples. Throws Error{scene} if a sum overflows.
+  /// Adds the sums of a film that differs at most in its crop, for the pixels that both have; not the numbers
+  /// of samples. Throws Error{scene} if a sum overflows.
   void add(const Film& other);
-  /// `only` copies the sums of some replicates, in this order, without numbers of samples. It throws
-  /// Error{resource} if memory does not suffice. `put_back` restores the sums from such a copy.
+  /// `only` copies the sums of some replicates, without numbers of samples. It throws Error{resource} if
+  /// memory does not suffice. `put_back` restores the sums from such a copy.
   [[nodiscard]] Film only(std::span<const int> replicates) const;
   void put_back(std::span<const int> replicates, const Film& saved);
   /// The sums in the internal order of the film, for processes that add them up.
@@ -89,7 +89,7 @@ class Film {
   [[nodiscard]] std::string_view bytes() const;
   [[nodiscard]] static std::optional<Film> from_bytes(const FilmShape& shape, std::string_view bytes);
 
-  /// Sum of a channel over the samples of a pixel; 0 outside the crop.
+  /// Sum over the samples of a pixel; 0 outside the crop.
   [[nodiscard]] double total(std::size_t pixel, int channel) const;
   /// Mean of a channel over the samples of a pixel, and the variance of that mean. Both are 0 outside the
   /// crop and without samples. The variance is also 0 with fewer than two filled replicates.
@@ -105,27 +105,23 @@ class Film {
     double standard_error;
     double degrees_of_freedom;
   };
-  /// Average over the whole film.
-  [[nodiscard]] Average average(int channel) const;
+  [[nodiscard]] Average average(int channel) const;  ///< Average over the whole film.
   /// Average over x0 <= x < x1, y0 <= y < y1, where pixels outside the crop count as 0. `divisors`, one per
   /// pixel of the film if any, divide each pixel by a number of its own.
   [[nodiscard]] Average average(int channel, int x0, int y0, int x1, int y1,
                                 std::span<const double> divisors = {}) const;
-  /// Samples per pixel, summed over the replicates.
-  [[nodiscard]] double samples() const;
-  /// Number of replicates that have samples.
-  [[nodiscard]] int filled_replicates() const;
+  [[nodiscard]] double samples() const;         ///< Samples per pixel, summed over the replicates.
+  [[nodiscard]] int filled_replicates() const;  ///< Number of replicates that have samples.
 
-  /// Film as an image: the means of all channels under their `names`, then their variances under
-  /// `Variance.<name>`. There is at least one name per channel. Pixels outside the crop are 0.
+  /// The means of all channels under their `names`, at least one each, then their variances under
+  /// `Variance.<name>`. Pixels outside the crop are 0.
   [[nodiscard]] Image image(std::span<const std::string> names) const;
   /// Updates the pixels of an area within the crop in such an image for samples per replicate that differ
   /// from those of `set_samples`.
   void develop(Image& image, const Crop& area, std::span<const std::uint64_t> samples) const;
 
   [[nodiscard]] const FilmShape& shape() const { return shape_; }
-  /// Pixels that have sums.
-  [[nodiscard]] Crop crop() const { return pixels_of(shape_); }
+  [[nodiscard]] Crop crop() const { return pixels_of(shape_); }  ///< Pixels that have sums.
   /// Index of a pixel in the whole film.
   [[nodiscard]] std::size_t pixel_at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(shape_.width) + static_cast<std::size_t>(x);
@@ -134,7 +130,6 @@ class Film {
   [[nodiscard]] int height() const { return shape_.height; }
   [[nodiscard]] int channels() const { return shape_.channels; }
   [[nodiscard]] int replicates() const { return shape_.replicates; }
-  /// Memory of the sums.
   [[nodiscard]] std::size_t memory_bytes() const { return sums_.size() * sizeof(Int128); }
 
  private:

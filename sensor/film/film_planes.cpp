@@ -14,6 +14,15 @@
 #include "sensor/response/polarised_channels.h"
 
 namespace abbe {
+namespace {
+
+// Name of a component. In spectral files, the names of intensities have the prefix of their component too.
+std::string component_of(const std::string& intensity, int component) {
+  if (intensity.starts_with("S0.")) return stokes_plane_name(component, intensity.substr(3));
+  return stokes_plane_name(component, intensity);
+}
+
+}  // namespace
 
 std::vector<std::string> plane_names(const Image& film) {
   std::vector<std::tuple<char, double, std::string>> bands;
@@ -36,16 +45,6 @@ bool may_hold_tristimulus_values(const Image& film) {
   const auto unit = film.metadata.find("channel.X");
   return unit == film.metadata.end() || unit->second.starts_with("photometric");
 }
-
-namespace {
-
-// Name of a component. In spectral files, the names of intensities have the prefix of their component too.
-std::string component_of(const std::string& intensity, int component) {
-  if (intensity.starts_with("S0.")) return name_of({component, intensity.substr(3)});
-  return name_of({component, intensity});
-}
-
-}  // namespace
 
 StokesVector StokesPlanes::at(std::size_t pixel) const {
   StokesVector stokes{};

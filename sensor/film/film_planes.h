@@ -20,7 +20,7 @@ namespace abbe {
 /// tristimulus values.
 [[nodiscard]] bool may_hold_tristimulus_values(const Image& film);
 
-/// Name of the channel of a film with the variance of another channel.
+/// Name of the channel with the variance of another channel.
 [[nodiscard]] inline std::string variance_of(const std::string& channel) {
   return "Variance." + channel;
 }
@@ -28,8 +28,7 @@ namespace abbe {
 /// Attribute with the layers that add up to a film, separated by commas; absent if it has none. Each layer
 /// has channels `<layer>.<plane>` in the same file.
 inline constexpr const char* kLayersKey = "layers";
-/// Prefix of the names of light-group layers.
-inline constexpr const char* kLightLayer = "light.";
+inline constexpr const char* kLightLayer = "light.";  ///< Prefix of the names of light-group layers.
 
 /// Planes of a film with the Stokes vectors of one channel or band.
 struct StokesPlanes {
@@ -53,7 +52,7 @@ struct PolarisationFigures {
   double angle_deg;      ///< Plane of oscillation of the electric field, atan2(U, Q)/2 in [0, 180),
                          ///< counterclockwise from the right of the picture.
 };
-/// State of polarisation of a Stokes vector.
+/// The figures of a Stokes vector.
 [[nodiscard]] PolarisationFigures polarisation_of(const StokesVector& stokes);
 
 }  // namespace abbe

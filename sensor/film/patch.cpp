@@ -56,10 +56,8 @@ std::string edges_of(const std::vector<Crop>& areas) {
 
 std::vector<Pixel> pixels_in(const PatchOutline& outline, const std::vector<Crop>& areas,
                              const char* area_name) {
-  const auto by_x = [](const Imath::V2d& a, const Imath::V2d& b) { return a.x < b.x; };
-  const auto by_y = [](const Imath::V2d& a, const Imath::V2d& b) { return a.y < b.y; };
-  const auto [left, right] = std::minmax_element(outline.corners.begin(), outline.corners.end(), by_x);
-  const auto [top, bottom] = std::minmax_element(outline.corners.begin(), outline.corners.end(), by_y);
+  const auto [left, right] = std::ranges::minmax_element(outline.corners, {}, &Imath::V2d::x);
+  const auto [top, bottom] = std::ranges::minmax_element(outline.corners, {}, &Imath::V2d::y);
   if (!cover(areas, {std::floor(left->x), std::floor(top->y)}, {std::ceil(right->x), std::ceil(bottom->y)}))
     throw Error(ErrorCode::input, outline.name,
                 fmt::format("its measured area extends outside {} (got x in [{:.5g}, {:.5g}], y in [{:.5g}, "

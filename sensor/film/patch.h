@@ -19,8 +19,7 @@ namespace abbe {
 /// at any light; a larger fraction is due to the light.
 inline constexpr double kMaxDefectiveFraction = 0.01;
 
-/// True if `at_end` black or saturated ones among `pixels` pixels are too many to be defective, so that the
-/// light causes them.
+/// True if `at_end` black or saturated ones among `pixels` are too many to be defective.
 [[nodiscard]] constexpr bool exceeds_defects(double at_end, double pixels) {
   return at_end > kMaxDefectiveFraction * pixels;
 }
@@ -32,10 +31,10 @@ struct PatchOutline {
   std::array<Imath::V2d, 4> corners;
 };
 
-/// Statistics of one channel in a patch. Mean, median and deviation exclude black and saturated pixels if
-/// these are so few that they count as defective (`exceeds_defects`).
+/// Statistics of one channel in a patch. Mean, median and deviation exclude defective black and saturated
+/// pixels (`exceeds_defects`).
 struct PatchChannel {
-  std::size_t pixels = 0;                ///< Number of all pixels.
+  std::size_t pixels = 0;                ///< All pixels.
   double mean = 0;                       ///< In units of the plane, like all values here.
   double median = 0;                     ///< Median by `grouped_median`.
   std::optional<double> deviation = {};  ///< Standard deviation of the pixels; nothing for a single pixel.
@@ -54,7 +53,6 @@ struct PatchChannel {
     return exceeds_defects(static_cast<double>(saturated), static_cast<double>(pixels));
   }
 };
-/// Statistics of a patch, by channel.
 struct PatchValues {
   std::string name;
   std::vector<PatchChannel> channels;
@@ -74,7 +72,6 @@ struct MeasuredPlanes {
   /// Lower saturation value of each channel, below `saturation`, if it clips there; empty if none does.
   std::vector<std::optional<double>> clipped_at = {};
 
-  /// Lowest value of a saturated pixel of a channel.
   [[nodiscard]] std::optional<double> saturation_of(std::size_t channel) const {
     return channel < clipped_at.size() && clipped_at[channel] ? clipped_at[channel] : saturation;
   }
@@ -96,8 +93,7 @@ struct MeasuredPlanes {
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(
     std::span<const std::vector<PatchChannel>> channels, std::optional<double> saturation);
 
-/// Clipping level of each channel of measured patches, by the function above; nothing for a channel unless
-/// the pixels of the image above it are few enough to be defective.
+/// These levels for measured patches. A channel with more pixels above its level than are defective has none.
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(const Image& image,
                                                                  const MeasuredPlanes& planes,
                                                                  std::span<const PatchValues> patches);

@@ -1,9 +1,7 @@
 #include "sensor/film/recorded_attributes.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,6 +10,20 @@
 #include "io/text.h"
 
 namespace abbe {
+namespace {
+
+// Edges of the bands, or nothing for a single band, whose width is unknown.
+std::vector<double> edges_of_bands(const Image& film) {
+  std::vector<SpectralBand> bands;
+  for (const ImageChannel& channel : film.channels)
+    if (const auto name = parse_spectral_channel(channel.name, "film"); name && name->kind == '0')
+      bands.push_back({name->center_nm, {}});
+  if (bands.size() < 2) return {};
+  std::ranges::sort(bands, {}, &SpectralBand::center_nm);
+  return band_edges(bands);
+}
+
+}  // namespace
 
 void record_white(const std::string& name, const Chromaticity& xy, bool requested,
                   std::map<std::string, std::string>& metadata) {
@@ -35,21 +47,6 @@ std::optional<Chromaticity> recorded_white(const Image& film) {
               fmt::format("attribute \"{}\" is malformed (got \"{}\", allowed two positive numbers)",
                           kWhiteXyKey, entry->second));
 }
-
-namespace {
-
-// Edges of the bands, or nothing for a single band, whose width is unknown.
-std::vector<double> edges_of_bands(const Image& film) {
-  std::vector<SpectralBand> bands;
-  for (const ImageChannel& channel : film.channels)
-    if (const auto name = parse_spectral_channel(channel.name, "film"); name && name->kind == '0')
-      bands.push_back({name->center_nm, {}});
-  if (bands.size() < 2) return {};
-  std::ranges::sort(bands, {}, &SpectralBand::center_nm);
-  return band_edges(bands);
-}
-
-}  // namespace
 
 const char* photometric_unit(Observer observer) {
   return observer == Observer::cie1931 ? "photometric, lx s"

@@ -13,7 +13,7 @@ namespace abbe {
 
 /// JSON pointer of the requested white, in a scene and in the options of development.
 inline constexpr const char* kWhitePointer = "/output/white";
-/// Attributes with the name of a film's white and with its chromaticity x, y, separated by a blank.
+/// Attributes with the name of a film's white and with its x and y, separated by a blank.
 inline constexpr const char* kWhiteKey = "white";
 inline constexpr const char* kWhiteXyKey = "white_xy";
 /// Attribute of a film whose scene requests its white, "yes". Other films are displayed with their main light
@@ -25,8 +25,7 @@ inline constexpr const char* kLightsXyKey = "lights_xy";
 /// Attribute with the reason why a film cannot be displayed, instead of its display matrix.
 inline constexpr const char* kNoPictureKey = "no_picture";
 
-/// Records the name and chromaticity of a white, and if the scene requests it (`requested`). Replaces an
-/// earlier one.
+/// Records a white, and if the scene requests it. Replaces an earlier one.
 void record_white(const std::string& name, const Chromaticity& xy, bool requested,
                   std::map<std::string, std::string>& metadata);
 
@@ -34,13 +33,11 @@ void record_white(const std::string& name, const Chromaticity& xy, bool requeste
 /// Error{input} unless x and y are two positive numbers.
 [[nodiscard]] std::optional<Chromaticity> recorded_white(const Image& film);
 
-/// Attribute of a film with the relative error of its mean over the frame (`frame_mean_error`). "inf" means
-/// unknown. An example is a film with pixels whose samples are in fewer than two replicates, where variances
-/// of 0 mean nothing.
+/// Attribute with the relative error of a film's mean over the frame (`frame_mean_error`); "inf" if unknown,
+/// as with pixels whose samples are in fewer than two replicates.
 inline constexpr const char* kFrameMeanErrorKey = "frame_mean_error";
 
-/// Attribute of a film with too few effective samples to estimate its error: the effective number of samples
-/// that carry half of the variance of its mean (`few_samples`). Absent for other films.
+/// Attribute with the result of `few_samples`; absent if there is none.
 inline constexpr const char* kHalfNoiseSamplesKey = "half_noise_samples";
 
 /// True if the attributes of a film or of a file developed from it record an unknown error.

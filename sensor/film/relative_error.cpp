@@ -30,6 +30,10 @@ struct Histogram {
   std::vector<double> mass;
 
   [[nodiscard]] std::ptrdiff_t size() const { return std::ssize(mass); }
+  // The step of an element of `mass`.
+  [[nodiscard]] double at(std::size_t i) const {
+    return static_cast<double>(first + static_cast<std::ptrdiff_t>(i));
+  }
 };
 
 std::ptrdiff_t step_of(double value) {
@@ -67,11 +71,8 @@ struct HistogramMoments {
 };
 HistogramMoments moments_of(const Histogram& of) {
   HistogramMoments m;
-  for (std::ptrdiff_t i = 0; i < of.size(); ++i)
-    m.mean += of.mass[static_cast<std::size_t>(i)] * static_cast<double>(of.first + i);
-  for (std::ptrdiff_t i = 0; i < of.size(); ++i)
-    m.variance +=
-        of.mass[static_cast<std::size_t>(i)] * std::pow(static_cast<double>(of.first + i) - m.mean, 2);
+  for (std::size_t i = 0; i < of.mass.size(); ++i) m.mean += of.mass[i] * of.at(i);
+  for (std::size_t i = 0; i < of.mass.size(); ++i) m.variance += of.mass[i] * std::pow(of.at(i) - m.mean, 2);
   return m;
 }
 
@@ -84,9 +85,8 @@ Histogram initial_distribution(const Histogram& observed, const Histogram& sprea
   const HistogramMoments noise = moments_of(spread);
   const double variance = std::max(all.variance - noise.variance, 0.25);
   Histogram estimate = observed;
-  for (std::ptrdiff_t i = 0; i < estimate.size(); ++i)
-    estimate.mass[static_cast<std::size_t>(i)] = std::exp(
-        -std::pow(static_cast<double>(estimate.first + i) - all.mean + noise.mean, 2) / (2 * variance));
+  for (std::size_t i = 0; i < estimate.mass.size(); ++i)
+    estimate.mass[i] = std::exp(-std::pow(estimate.at(i) - all.mean + noise.mean, 2) / (2 * variance));
   const double sum = std::accumulate(estimate.mass.begin(), estimate.mass.end(), 0.0);
   for (double& mass : estimate.mass)
     mass = (1 - kUniformWeight) * mass / sum + kUniformWeight / static_cast<double>(estimate.size());

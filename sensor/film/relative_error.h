@@ -14,7 +14,6 @@ namespace abbe {
 /// Floor of relMSE: the mean of (x - r)^2 / (r^2 + kUsualFloor * mean(r)^2) for values x and reference r.
 inline constexpr double kUsualFloor = 0.01;
 
-/// Selects all planes of a film.
 inline constexpr std::size_t kAllPlanes = std::numeric_limits<std::size_t>::max();
 
 /// Deviation of a film from its expectation: standard deviations divided by means.
@@ -22,38 +21,32 @@ struct RelativeError {
   /// Median over the nonzero values; infinite if unknown.
   double median = std::numeric_limits<double>::infinity();
   double p95 = std::numeric_limits<double>::infinity();  ///< 95th percentile over them; infinite if unknown.
-  /// Relative error of the mean over the frame, by `frame_mean_error`. Unlike the median, it depends on a few
-  /// bright pixels.
+  /// Result of `frame_mean_error`. Unlike the median, it depends on a few bright pixels.
   double frame_mean = std::numeric_limits<double>::infinity();
   /// Largest relative error of the frame means of the planes that an error target names (`worst_mean_error`).
   /// Infinite unless the caller sets it.
   double worst_mean = std::numeric_limits<double>::infinity();
-  /// Number of samples that carry half of the variance of the film's mean, by `few_samples`. Nothing if they
-  /// suffice for an estimate.
+  /// Result of the function `few_samples`.
   std::optional<std::uint64_t> few_samples = {};
-  /// Result of the function `hidden_noise`, by which a pilot predicts a larger error than the film shows. It
-  /// is 0 unless the caller sets it.
+  /// Result of the function `hidden_noise`; 0 unless the caller sets it.
   double hidden_noise = 0;
 };
 
-/// False if the error of a film is based on too few samples, or if a pilot predicts a larger one. Its
-/// intervals are then too narrow.
+/// False if the error is based on too few samples, or if a pilot predicts a larger one.
 [[nodiscard]] inline bool is_known(const RelativeError& error) {
   return !error.few_samples && error.hidden_noise == 0;
 }
 
-/// Values that are not 0 in a pilot, by their index pixel * planes + plane. The pilot must be independent of
-/// the film to be judged. Of very many values, an evenly spread subset is returned. Considers only the first
-/// `intensity_planes` planes (all if there are fewer): the others are signed, and small where there is much
-/// light.
+/// Values that are not 0 in a pilot, by their index pixel * planes + plane; of very many, an evenly spread
+/// subset. The pilot must be independent of the film to be judged. Only the first `intensity_planes` planes
+/// count (all if there are fewer): the others are signed, and small where there is much light.
 [[nodiscard]] std::vector<std::size_t> nonzero_values(const Film& pilot,
                                                       std::size_t intensity_planes = kAllPlanes);
 
-/// Percentiles of the relative errors of the `nonzero` values (indices of `nonzero_values`), and the error of
-/// the frame mean of the first `intensity_planes` planes. `quantiles_of_deviation` corrects the percentiles
-/// for the few replicates. A nonzero value that is 0 in the film has an infinite error. Sets `median`, `p95`,
-/// `frame_mean` and `few_samples`. The percentiles are infinite without nonzero values and with fewer than
-/// two filled replicates.
+/// Sets `frame_mean` and `few_samples` for the first `intensity_planes` planes. Sets the percentiles `median`
+/// and `p95` of the relative errors of the `nonzero` values, which `quantiles_of_deviation` corrects for the
+/// few replicates. A nonzero value that is 0 in the film has an infinite error. The percentiles are infinite
+/// without nonzero values and with fewer than two filled replicates.
 [[nodiscard]] RelativeError relative_error(const Film& film, std::span<const std::size_t> nonzero,
                                            std::size_t intensity_planes = kAllPlanes);
 

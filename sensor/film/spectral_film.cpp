@@ -35,7 +35,7 @@ auto& bands_of(auto& image, int component) {
 void add_component(const Image& film, const SpectralBins& bins, int component,
                    std::span<const double> exposure_per_radiance, SpectralImage& image) {
   for (int bin = 0; bin < bins.count; ++bin) {
-    const std::string name = name_of({component, bin_name(bins, bin)});
+    const std::string name = stokes_plane_name(component, bin_name(bins, bin));
     const ImageChannel* value = film.find(name);
     const ImageChannel* variance = film.find(variance_of(name));
     if (value == nullptr) throw Error(ErrorCode::internal, name, "the film lacks a bin of its sensor");
@@ -119,7 +119,7 @@ std::vector<Channel> spectral_channels(const SpectralBins& bins) {
 SpectralImage spectral_film(const Image& film, const SpectralBins& bins,
                             std::span<const double> exposure_per_radiance) {
   SpectralImage image{film.width, film.height, {}, {}, film.metadata};
-  const bool polarised = film.find(name_of({1, bin_name(bins, 0)})) != nullptr;
+  const bool polarised = film.find(stokes_plane_name(1, bin_name(bins, 0))) != nullptr;
   for (int component = 0; component < (polarised ? 4 : 1); ++component)
     add_component(film, bins, component, exposure_per_radiance, image);
   return image;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "io/spectral_exr.h"
@@ -26,11 +25,10 @@ struct SpectralBins {
 /// width of the bins is positive.
 [[nodiscard]] std::vector<Channel> spectral_channels(const SpectralBins& bins);
 
-/// Converts a film of `spectral_channels`, with or without their Stokes channels (`with_stokes`). The result
-/// has the radiance integrated over each bin [W/(m^2 sr)]. `exposure_per_radiance` [s sr] has the ratio of
-/// radiant exposure to radiance of each pixel. The radiance is not divided by the width of the bins.
-/// `Variance.` channels are divided by its square. Metadata are copied. Throws Error{internal} if the film
-/// lacks a channel of a bin.
+/// Converts a film of `spectral_channels`, with or without their Stokes channels (`with_stokes`), to the
+/// radiance integrated over each bin [W/(m^2 sr)]. `exposure_per_radiance` [s sr] has the ratio of radiant
+/// exposure to radiance of each pixel; variances are divided by its square. Metadata are copied. Throws
+/// Error{internal} if the film lacks a channel of a bin.
 [[nodiscard]] SpectralImage spectral_film(const Image& film, const SpectralBins& bins,
                                           std::span<const double> exposure_per_radiance);
 

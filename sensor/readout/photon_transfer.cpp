@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <limits>
 #include <numbers>
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -54,17 +52,17 @@ std::optional<WeightedLine> fitted_line(const std::vector<Sample>& samples) {
                       wxx / determinant, w / determinant};
 }
 
-std::size_t distinct(std::span<const LinearityPoint> points, double LinearityPoint::*value) {
+std::size_t distinct(std::span<const TransferPoint> points, double TransferPoint::*value) {
   std::set<double> unique_values;
-  for (const LinearityPoint& p : points) unique_values.insert(p.*value);
+  for (const TransferPoint& p : points) unique_values.insert(p.*value);
   return unique_values.size();
 }
 
 // Relative curvature b of y/t = c (1 + b t) over the exposure time, and its standard error from the residuals
 // of the parabola.
-std::optional<RelativeBias> curvature_over_time(std::span<const LinearityPoint> points) {
+std::optional<RelativeBias> curvature_over_time(std::span<const TransferPoint> points) {
   std::vector<Sample> samples;
-  for (const LinearityPoint& p : points) samples.push_back({p.exposure_s, p.signal_dn / p.exposure_s, 1});
+  for (const TransferPoint& p : points) samples.push_back({p.exposure_s, p.signal_dn / p.exposure_s, 1});
   const auto line = fitted_line(samples);
   if (!line || !(line->at_zero > 0)) return std::nullopt;
   double squares = 0;
@@ -74,10 +72,10 @@ std::optional<RelativeBias> curvature_over_time(std::span<const LinearityPoint> 
 }
 
 // Relative bias of the gain for a curvature b over the exposure time.
-double bias_of(std::span<const LinearityPoint> points, double curvature) {
+double bias_of(std::span<const TransferPoint> points, double curvature) {
   double squares = 0;
   double products = 0;
-  for (const LinearityPoint& p : points) {
+  for (const TransferPoint& p : points) {
     const double light = p.exposure_s;
     const double signal = light * (1 + curvature * light);
     const double slope = 1 + 2 * curvature * light;
@@ -87,7 +85,7 @@ double bias_of(std::span<const LinearityPoint> points, double curvature) {
   return squares / products - 1;
 }
 
-std::optional<RelativeBias> bias_by_times(std::span<const LinearityPoint> points) {
+std::optional<RelativeBias> bias_by_times(std::span<const TransferPoint> points) {
   const auto curvature = curvature_over_time(points);
   if (!curvature) return std::nullopt;
   const double bias = bias_of(points, curvature->value);
@@ -95,11 +93,11 @@ std::optional<RelativeBias> bias_by_times(std::span<const LinearityPoint> points
   return RelativeBias{bias, std::abs(moved - bias)};
 }
 
-std::optional<RelativeBias> bias_by_variances(std::span<const LinearityPoint> points) {
+std::optional<RelativeBias> bias_by_variances(std::span<const TransferPoint> points) {
   std::vector<Sample> samples;
   double squares = 0;
   double products = 0;
-  for (const LinearityPoint& p : points) {
+  for (const TransferPoint& p : points) {
     if (!(p.variance_error2 > 0)) return std::nullopt;
     const double y2 = p.signal_dn * p.signal_dn;
     samples.push_back({p.signal_dn, p.variance_dn2 / p.signal_dn, y2 / p.variance_error2});
@@ -333,9 +331,8 @@ double pattern_variance(const std::vector<WeightedPair>& darkness, const FlatPai
 }
 
 // Spatial variance [DN^2] of darkness at an exposure time, or of an illuminated pair minus that darkness,
-// pixel by pixel. The darkness is that of the pairs of the same exposure time. Without these it is the value
-// of the line through all dark pairs, since the dark signal of each pixel is proportional to time. If the
-// line adds too much noise, it is the pair nearest in time.
+// pixel by pixel. The dark signal of each pixel is proportional to time, hence the line through all dark
+// pairs.
 double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& dark,
                const std::vector<CodeLevel>& levels, double exposure_s, const FlatPair* illuminated = nullptr,
                double room_dn = std::numeric_limits<double>::infinity()) {
@@ -356,27 +353,19 @@ double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& 
     noise += weights[j] * weights[j] * dark[j].temporal;
   }
   noise /= std::sqrt(static_cast<double>(pairs.front().first.size()));
-  const auto nearer = [&](const WeightedPair& a, const WeightedPair& b) {
-    return std::abs(a.pair->exposure_s - exposure_s) < std::abs(b.pair->exposure_s - exposure_s);
-  };
-  const WeightedPair& nearest = *std::min_element(line.begin(), line.end(), nearer);
+  const auto distance = [&](const WeightedPair& p) { return std::abs(p.pair->exposure_s - exposure_s); };
+  const WeightedPair& nearest = *std::ranges::min_element(line, {}, distance);
   const double by_nearest = variance({{nearest.pair, nearest.moments, 1}});
   return noise > kPatternNoise * by_nearest ? by_nearest : variance(line);
 }
 
-// Adds the linearity of the illuminated pairs. `below` are the pairs that the gain is fitted to.
-void assess_linearity(const std::vector<PairMoments>& illuminated, const std::vector<PairMoments>& below,
-                      const Line& dark_mean, const Line& dark_variance, double saturation_dn,
-                      PhotonTransfer& transfer) {
-  const auto points_of = [&](const std::vector<PairMoments>& pairs) {
-    std::vector<LinearityPoint> points;
-    for (const PairMoments& m : pairs)
-      points.push_back({m.exposure_s, m.mean - dark_mean.at(m.exposure_s),
-                        m.temporal - dark_variance.at(m.exposure_s), m.temporal_error2});
-    return points;
-  };
-  transfer.linearity_error_percent = linearity_error_percent(points_of(illuminated), saturation_dn);
-  transfer.gain_bias = gain_bias(points_of(below), transfer.linearity_error_percent.has_value());
+std::vector<TransferPoint> points_of(const std::vector<PairMoments>& pairs, const Line& dark_mean,
+                                     const Line& dark_variance) {
+  std::vector<TransferPoint> points;
+  for (const PairMoments& m : pairs)
+    points.push_back({m.exposure_s, m.mean - dark_mean.at(m.exposure_s),
+                      m.temporal - dark_variance.at(m.exposure_s), m.temporal_error2});
+  return points;
 }
 
 // Result for pairs without unexpectedly full pixels.
@@ -394,20 +383,17 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
   const auto signal = [&](const PairMoments& m) { return m.mean - dark_mean.at(m.exposure_s); };
 
   // The variance is largest at saturation.
-  const auto by = [](auto value) {
-    return [value](const PairMoments& a, const PairMoments& b) { return value(a) < value(b); };
-  };
-  const auto variance = [](const PairMoments& m) { return m.temporal; };
-  const double saturation = signal(*std::max_element(illuminated.begin(), illuminated.end(), by(variance)));
+  const double saturation = signal(*std::ranges::max_element(illuminated, {}, &PairMoments::temporal));
+  std::vector<PairMoments> below;
+  std::ranges::copy_if(illuminated, std::back_inserter(below),
+                       [&](const PairMoments& m) { return signal(m) <= kFitted * saturation; });
+  const std::vector<TransferPoint> fitted_points = points_of(below, dark_mean, dark_variance);
   double products = 0;
   double squares = 0;
-  std::vector<PairMoments> below;
-  for (const PairMoments& m : illuminated)
-    if (signal(m) <= kFitted * saturation) {
-      below.push_back(m);
-      products += signal(m) * (m.temporal - dark_variance.at(m.exposure_s));
-      squares += signal(m) * signal(m);
-    }
+  for (const TransferPoint& p : fitted_points) {
+    products += p.signal_dn * p.variance_dn2;
+    squares += p.signal_dn * p.signal_dn;
+  }
   if (below.empty()) refuse_bright_pairs(saturation, illuminated.size());
   if (!(products > 0)) refuse(kNoLight);
   const double gain = squares / products;
@@ -415,7 +401,7 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
   const RelativeErrors errors = relative_errors(dark, below, dark_mean, products, read_variance);
   if (errors.gain > kMaxGainError) refuse(kNoLight);
 
-  const PairMoments& brightest = *std::max_element(illuminated.begin(), illuminated.end(), by(signal));
+  const PairMoments& brightest = *std::ranges::max_element(illuminated, {}, signal);
   const auto root = [](double x) { return std::sqrt(std::max(0.0, x)); };
   const std::size_t highest_code = (1U << static_cast<unsigned>(bits)) - 1;
   // All full wells hold the same number of electrons, so their variance is far below that of the light.
@@ -427,23 +413,23 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
 
   const double full_dn = full ? dark_mean.at_zero + kFull * (brightest.mean - dark_mean.at_zero) : white_dn;
   const auto from_half = [&](const PairMoments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
-  const auto half_pair = std::min_element(illuminated.begin(), illuminated.end(), by(from_half));
+  const auto half_pair = std::ranges::min_element(illuminated, {}, from_half);
   const FlatPair& half = illuminated_pairs[static_cast<std::size_t>(half_pair - illuminated.begin())];
   // Dark signal above the mean that a pixel may have and still hold the light of that pair. A white level
   // below the pair does not limit it.
   const double above_half = (full ? brightest.mean : white_dn) - half_pair->mean;
   const double room_dn = above_half > 0 ? above_half : std::numeric_limits<double>::infinity();
-  std::vector<TransferPoint> points;
-  for (const PairMoments& m : illuminated)
-    points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
   const double read_noise = root(read_variance) * gain;
   Analysis all{
       {gain, read_noise, dark_mean.slope * gain,
        100 * root(pattern(dark_pairs, dark, levels, half.exposure_s, &half, room_dn)) / signal(*half_pair),
-       root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well_e, std::move(points), errors.gain * gain,
+       root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well_e,
+       points_of(illuminated, dark_mean, dark_variance), errors.gain * gain,
        errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt, saturation_e},
       full_dn};
-  assess_linearity(illuminated, below, dark_mean, dark_variance, saturation, all.transfer);
+  PhotonTransfer& transfer = all.transfer;
+  transfer.linearity_error_percent = linearity_error_percent(transfer.points, saturation);
+  transfer.gain_bias = gain_bias(fitted_points, transfer.linearity_error_percent.has_value());
   return all;
 }
 
@@ -476,15 +462,15 @@ struct SelectedPairs {
 };
 }  // namespace
 
-std::optional<double> linearity_error_percent(std::span<const LinearityPoint> points, double saturation_dn) {
-  std::vector<LinearityPoint> counted;
+std::optional<double> linearity_error_percent(std::span<const TransferPoint> points, double saturation_dn) {
+  std::vector<TransferPoint> counted;
   std::vector<Sample> samples;
-  for (const LinearityPoint& p : points) {
+  for (const TransferPoint& p : points) {
     if (p.signal_dn < kLowest * saturation_dn || p.signal_dn > kHighest * saturation_dn) continue;
     counted.push_back(p);
     samples.push_back({p.exposure_s, p.signal_dn, 1 / (p.signal_dn * p.signal_dn)});
   }
-  if (distinct(counted, &LinearityPoint::exposure_s) < kMinTimes) return std::nullopt;
+  if (distinct(counted, &TransferPoint::exposure_s) < kMinTimes) return std::nullopt;
   const auto line = fitted_line(samples);
   if (!line) return std::nullopt;
   double sum = 0;
@@ -493,10 +479,10 @@ std::optional<double> linearity_error_percent(std::span<const LinearityPoint> po
   return percent <= kSteadyLight ? std::optional(percent) : std::nullopt;
 }
 
-std::optional<RelativeBias> gain_bias(std::span<const LinearityPoint> points, bool is_light_constant) {
-  if (is_light_constant && distinct(points, &LinearityPoint::exposure_s) >= kMinSignals)
+std::optional<RelativeBias> gain_bias(std::span<const TransferPoint> points, bool is_light_constant) {
+  if (is_light_constant && distinct(points, &TransferPoint::exposure_s) >= kMinSignals)
     return bias_by_times(points);
-  if (distinct(points, &LinearityPoint::signal_dn) < kMinSignals) return std::nullopt;
+  if (distinct(points, &TransferPoint::signal_dn) < kMinSignals) return std::nullopt;
   return bias_by_variances(points);
 }
 

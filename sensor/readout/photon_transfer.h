@@ -9,11 +9,10 @@
 
 namespace abbe {
 
-/// An illuminated pair of flat exposures. Mean and variance are those above darkness of the same exposure
-/// time.
-struct LinearityPoint {
+/// A point of the photon-transfer curve: an illuminated pair of flat exposures.
+struct TransferPoint {
   double exposure_s;
-  double signal_dn;        ///< Mean above darkness.
+  double signal_dn;        ///< Mean above darkness of the same exposure time.
   double variance_dn2;     ///< Temporal variance above that of darkness.
   double variance_error2;  ///< Squared standard error of the variance [DN^4].
 };
@@ -22,7 +21,7 @@ struct LinearityPoint {
 /// between 5 and 95 % of saturation. The line over the exposure times t minimises relative squares.
 /// `saturation_dn` is the saturation signal above darkness. Nothing for fewer than four times, and for LE
 /// above 10 %, which indicates that the light was not constant.
-[[nodiscard]] std::optional<double> linearity_error_percent(std::span<const LinearityPoint> points,
+[[nodiscard]] std::optional<double> linearity_error_percent(std::span<const TransferPoint> points,
                                                             double saturation_dn);
 
 /// A relative error, as a fraction, and its standard error.
@@ -37,7 +36,7 @@ struct RelativeBias {
 /// without offset over the exposure times, which the means determine best. Otherwise the variances determine
 /// it: v/y = (1 + b y)/K. Nothing for fewer than three different signals, for a fit that does not determine
 /// the slope at weak light, and for variances without errors.
-[[nodiscard]] std::optional<RelativeBias> gain_bias(std::span<const LinearityPoint> points,
+[[nodiscard]] std::optional<RelativeBias> gain_bias(std::span<const TransferPoint> points,
                                                     bool is_light_constant);
 
 /// Codes of two exposures of a uniformly illuminated or dark sensor, taken one after the other. They differ
@@ -46,12 +45,6 @@ struct FlatPair {
   double exposure_s;
   std::span<const std::uint16_t> first;
   std::span<const std::uint16_t> second;
-};
-
-/// A point of the photon-transfer curve: an illuminated pair.
-struct TransferPoint {
-  double signal_dn;     ///< Mean above the dark signal.
-  double variance_dn2;  ///< Temporal variance above that of darkness.
 };
 
 /// Measured parameters of a sensor with a linear response, in the terms of `Readout`.
@@ -68,10 +61,8 @@ struct PhotonTransfer {
   /// Electrons at which wells are full or codes end; nothing if the brightest illuminated pair reaches
   /// neither.
   std::optional<double> saturation_e = {};
-  /// Result of the function `linearity_error_percent` for the illuminated pairs.
-  std::optional<double> linearity_error_percent = {};
-  /// Result of the function `gain_bias` for the pairs that K is fitted to.
-  std::optional<RelativeBias> gain_bias = {};
+  std::optional<double> linearity_error_percent = {};  ///< Of the illuminated pairs.
+  std::optional<RelativeBias> gain_bias = {};          ///< Of the pairs that K is fitted to.
 };
 
 /// Photon-transfer method of [EMVA1288].

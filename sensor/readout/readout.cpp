@@ -1,11 +1,7 @@
 #include "sensor/readout/readout.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <boost/random/normal_distribution.hpp>
@@ -218,9 +214,7 @@ std::vector<CodeLevel> code_levels(const Readout& readout) {
   constexpr std::size_t kCodes = 1U << 16U;
   std::vector<CodeLevel> levels;
   for (std::size_t code = 0; code < kCodes; ++code) levels.push_back({static_cast<double>(code), 1.0 / 12});
-  const auto signal = [&](double dn) {
-    return readout.offset_dn + electrons_of(readout, dn) / readout.gain_e_per_dn;
-  };
+  const auto signal = [&](double dn) { return linear_code(readout, dn); };
   const std::vector<std::uint16_t> straight = linear_codes(readout);
   auto next = straight.begin();
   while (next != straight.end()) {

@@ -28,8 +28,8 @@ class MonotoneCurve {
   std::vector<Point> points_;
 };
 
-/// Electronics of a sensor, which convert the electrons of a pixel to a digital number. Names and units are
-/// those of the scene file. No function checks the ranges.
+/// Electronics of a sensor, which convert the electrons of a pixel to a digital number. No function checks
+/// the ranges.
 struct Readout {
   double gain_e_per_dn = 1;  ///< K, electrons per digital number.
   int bits = 16;             ///< Bits of the converter, 1 to 16: codes are 0 to 2^bits - 1.
@@ -61,7 +61,7 @@ struct Readout {
 
 /// One exposure of a sensor. Another seed or frame gives independent noise and the same fixed patterns.
 struct Exposure {
-  double seconds = 1;       ///< Exposure time.
+  double seconds = 1;
   std::uint64_t seed = 0;   ///< Seed of the noise.
   std::uint32_t frame = 0;  ///< Number of the exposure in a series.
   std::size_t width = 0;    ///< Pixels per row, for row noise; 0 if all pixels are one row.
@@ -94,8 +94,8 @@ struct RawFrame {
 [[nodiscard]] RawFrame read_out(const Readout& readout, std::span<const float> expected_e,
                                 const Exposure& exposure);
 
-/// Electrons of a code by offset, curve and gain alone, as a calibration of raw data computes them. Codes
-/// below the offset give negative electrons; nothing is clipped.
+/// Electrons of a code by offset, curve and gain alone. Codes below the offset give negative electrons;
+/// nothing is clipped.
 [[nodiscard]] double electrons_of(const Readout& readout, double dn);
 
 /// Expected code without light after an exposure, for a linear response: offset + dark t/K. It is the offset
@@ -111,8 +111,8 @@ struct RawFrame {
 /// The well counts with at least half of its capacity.
 [[nodiscard]] double white_level(const Readout& readout);
 
-/// Standard deviations of the temporal noise of a pixel [electrons], by source. The total is the root of the
-/// sum of their squares.
+/// Standard deviations of the temporal noise of a pixel [electrons], by source, and the root of the sum of
+/// their squares.
 struct TemporalNoise {
   double photon_e;
   double dark_e;

@@ -41,8 +41,7 @@ namespace abbe {
 [[nodiscard]] std::optional<Readout> build(const spec::Readout& readout, std::optional<double> sensitivity,
                                            Diagnostics& diagnostics);
 
-/// Reads and builds the electronics from a JSON object like `sensor/readout` of a scene. Reports all errors,
-/// and returns nothing if there is one.
+/// Reads and builds the electronics from a JSON object like `sensor/readout` of a scene.
 [[nodiscard]] std::optional<Readout> read_readout(const JsonValue& json, std::optional<double> sensitivity,
                                                   Diagnostics& diagnostics);
 

@@ -23,21 +23,14 @@ NamedCurve daylight() {
 
 }  // namespace
 
-double sensitivity_e_per_lx_s(std::span<const Channel> channels, double gathering_area_m2,
-                              const Curve& illuminant) {
-  double largest = 0;
-  for (const Channel& channel : channels) {
-    if (channel.kind != ResponseKind::quantum)
-      throw Error(ErrorCode::internal, channel.name, "the speed of a channel that counts no electrons");
-    largest = std::max(largest, integral_of_product(illuminant, channel.weight) / channel.exposure_ratio);
-  }
-  return largest / photometric(illuminant) * gathering_area_m2;
-}
-
 std::optional<double> daylight_sensitivity(std::span<const Channel> channels, double gathering_area_m2) {
   const auto counts = [](const Channel& channel) { return channel.kind == ResponseKind::quantum; };
-  if (!std::all_of(channels.begin(), channels.end(), counts)) return std::nullopt;
-  return sensitivity_e_per_lx_s(channels, gathering_area_m2, daylight().curve);
+  if (!std::ranges::all_of(channels, counts)) return std::nullopt;
+  const Curve illuminant = daylight().curve;
+  double largest = 0;
+  for (const Channel& channel : channels)
+    largest = std::max(largest, integral_of_product(illuminant, channel.weight) / channel.exposure_ratio);
+  return largest / photometric(illuminant) * gathering_area_m2;
 }
 
 void check_daylight(std::span<const Channel> channels, const SourcePosition& where,

@@ -11,20 +11,15 @@ namespace abbe {
 /// Attribute of films and raw files with the ISO speed, in single precision.
 inline constexpr const char* kIsoSpeedKey = "isoSpeed";
 
-/// Electrons per pixel of the most sensitive channel for a luminous exposure of 1 lx s from `illuminant`,
-/// whose scale has no influence. A channel with its own exposure time counts as exposed for that of the
-/// sensor. Not finite for an illuminant without luminous flux. Throws Error{internal} for a channel that does
-/// not count electrons.
-[[nodiscard]] double sensitivity_e_per_lx_s(std::span<const Channel> channels, double gathering_area_m2,
-                                            const Curve& illuminant);
-
-/// Sensitivity for daylight D55, to which speeds refer [ISO12232] [electrons per lx s]. Nothing if a channel
-/// does not count electrons. Throws Error if the shipped table of D55 is missing.
+/// Electrons per pixel of the most sensitive channel for a luminous exposure of 1 lx s from daylight D55, to
+/// which speeds refer [ISO12232]. A channel with its own exposure time counts as exposed for that of the
+/// sensor. Nothing if a channel does not count electrons. Throws Error if the shipped table of D55 is
+/// missing.
 [[nodiscard]] std::optional<double> daylight_sensitivity(std::span<const Channel> channels,
                                                          double gathering_area_m2);
 
-/// Warns if channels respond to a non-negligible fraction of daylight outside the table of D55, which a speed
-/// ignores. Throws Error if that table is missing.
+/// Warns if channels respond to a non-negligible fraction of daylight outside the table of D55. Throws Error
+/// if that table is missing.
 void check_daylight(std::span<const Channel> channels, const SourcePosition& where, Diagnostics& diagnostics);
 
 /// Electrons that saturate a pixel: those of a full well or of the highest code, whichever are fewer.

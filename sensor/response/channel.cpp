@@ -1,11 +1,8 @@
 #include "sensor/response/channel.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,7 +13,6 @@
 #include "io/text.h"
 #include "sensor/response/table_range.h"
 #include "spectral/curve_use.h"
-#include "spectral/library.h"
 #include "spectral/sources.h"
 
 namespace abbe {
@@ -62,28 +58,26 @@ std::optional<std::vector<NamedCurve>> camera_curves(const std::string& name, co
   if (is_json(name)) return read_camera_json(name, diagnostics);
   const std::optional<TableColumn> location = find_table("camera", name, where, diagnostics);
   if (!location) return std::nullopt;
-  if (!location->column.empty()) {
-    std::optional<NamedCurve> curve = load_curve("camera", name, where, diagnostics);
-    if (!curve) return std::nullopt;
-    curve->name = location->column;
-    return std::vector{*std::move(curve)};
+  std::vector<std::string> labels{location->column};
+  if (location->column.empty()) {
+    const bool shipped = user_table_end(name) == std::string::npos;
+    const std::optional<Table> table =
+        read_table(location->path, shipped ? TableOrigin::shipped : TableOrigin::user, diagnostics);
+    if (!table) return std::nullopt;
+    labels.assign(table->columns.begin() + 1, table->columns.end());
+    std::erase_if(labels, [](const std::string& label) { return label.starts_with("wavelength_"); });
+    if (labels.empty()) diagnostics.error(table->where, "has no channel column", ErrorCode::input);
+    if (labels.empty()) return std::nullopt;
   }
-  const bool shipped = user_table_end(name) == std::string::npos;
-  const std::optional<Table> table =
-      read_table(location->path, shipped ? TableOrigin::shipped : TableOrigin::user, diagnostics);
-  if (!table) return std::nullopt;
   std::vector<NamedCurve> curves;
-  for (std::size_t column = 1; column < table->columns.size(); ++column) {
-    const std::string& label = table->columns[column];
-    if (label.starts_with("wavelength_")) continue;
-    std::optional<NamedCurve> curve = load_curve("camera", name + ":" + label, where, diagnostics);
+  for (const std::string& label : labels) {
+    const std::string column = location->column.empty() ? name + ":" + label : name;
+    std::optional<NamedCurve> curve = load_curve("camera", column, where, diagnostics);
     if (!curve) return std::nullopt;
     curve->name = label;
     curves.push_back(*std::move(curve));
   }
-  if (!curves.empty()) return curves;
-  diagnostics.error(table->where, "has no channel column", ErrorCode::input);
-  return std::nullopt;
+  return curves;
 }
 
 // Checks that a table without an extrapolation rule covers the response. A table that declares 0 needs no
@@ -93,7 +87,7 @@ bool check_response_range(const NamedCurve& curve, const std::string& column, co
   if (curve.outside != Outside::error) return true;
   NamedCurve named = curve;
   named.name = column;
-  return check_table_range(named, Curve(1.0), {&channel, 1}, where, diagnostics);
+  return check_table_range(named, Curve(1.0), named_responses({&channel, 1}), where, diagnostics);
 }
 
 ResponseKind photometric_kind(Observer observer) {
@@ -349,8 +343,7 @@ Channel averaged(Channel channel, std::span<const Incidence> angles) {
 }
 
 bool any_angular(std::span<const Channel> channels) {
-  return std::any_of(channels.begin(), channels.end(),
-                     [](const Channel& c) { return c.angular.has_value(); });
+  return std::ranges::any_of(channels, [](const Channel& c) { return c.angular.has_value(); });
 }
 
 }  // namespace abbe

@@ -32,20 +32,17 @@ struct InterferenceFilter {
   double effective_index;  ///< That of `blue_shift`, at least 1.
 };
 
-/// A stack of filters: the transmittance of those that do not depend on the angle, and the others.
 struct FilterStack {
-  /// Product of all factors that do not depend on the angle.
-  Curve fixed = Curve(1.0);
+  Curve fixed = Curve(1.0);  ///< Product of all factors that do not depend on the angle.
   std::vector<InterferenceFilter> shifting = {};
 };
 
-/// Upper bound of the transmittance over all angles whose cosine is at least `min_cosine`, piecewise constant
-/// in steps of at most a nanometre. It is zero exactly where all these transmittances are zero.
+/// Upper bound of the transmittance over all angles whose cosine is at least `min_cosine`, in steps of at
+/// most a nanometre. It is zero exactly where all these transmittances are zero.
 [[nodiscard]] Curve envelope(const InterferenceFilter& filter, double min_cosine);
 
-/// Response of a channel to polarised light relative to unpolarised light. A Stokes vector (I, Q, U, V) in
-/// the frame of the film counts i I + c (q Q + u U + v V), where c is the contrast. A channel without an
-/// analyser measures I.
+/// Response to polarised light relative to unpolarised light. A Stokes vector (I, Q, U, V) in the frame of
+/// the film counts i I + c (q Q + u U + v V), where c is the contrast.
 struct Analyser {
   float i = 1;  ///< 0 for a channel of one signed component (`with_stokes`).
   float q = 0;
@@ -57,7 +54,6 @@ struct Analyser {
 /// Weights (i, c q, c u, c v) of an analyser at several wavelengths [nm].
 [[nodiscard]] StokesSpectrum row_of(const Analyser& analyser, const SampledSpectrum& wavelengths_nm);
 
-/// A linear polariser in front of a film.
 struct Polariser {
   double angle_deg = 0;  ///< Transmission axis in degrees, counterclockwise from the right of the picture.
   Curve transmittance = Curve(1.0);  ///< Transmittance of light polarised along the axis, in [0, 1].
@@ -72,11 +68,9 @@ struct Polariser {
 [[nodiscard]] Analyser analyser_of(const Polariser& polariser);
 
 /// Quantity that a response multiplies: the incident energy, the incident photons, or the luminous exposure
-/// for the colour-matching functions of 1931. `photometric_1964` is the corresponding integral with those of
-/// 1964.
+/// for the colour-matching functions of 1931 or 1964.
 enum class ResponseKind { energy, quantum, photometric, photometric_1964 };
 
-/// Dependence of the weight of a channel on the angle of incidence.
 struct AngularResponse {
   FilterStack filters;  ///< `fixed` is the part of the weight that does not depend on the angle.
   Curve envelope;       ///< Curve whose magnitude bounds that of the weight over all angles that occur.
@@ -96,8 +90,7 @@ struct Channel {
   std::optional<Analyser> analyser = {};
 };
 
-/// Weight for unpolarised light at several wavelengths [nm], whose angle of incidence on the film has this
-/// cosine.
+/// Weight for unpolarised light at several wavelengths [nm], at this cosine of incidence on the film.
 [[nodiscard]] inline SampledSpectrum weight_at(const Channel& channel, const SampledSpectrum& wavelengths_nm,
                                                float cos_film) {
   if (!channel.angular) return channel.weight(wavelengths_nm);
@@ -114,11 +107,10 @@ struct Channel {
   return channel.angular ? channel.angular->envelope : channel.weight;
 }
 
-/// A channel whose response multiplies energy: weight = response.
+/// A channel of `ResponseKind::energy`: weight = response.
 [[nodiscard]] Channel energy_channel(std::string name, Curve response);
 
-/// A channel whose response (quantum efficiency times filters, electrons per photon) multiplies photons:
-/// weight = response lambda/(hc).
+/// A quantum channel: weight = response lambda/(hc). The response is in electrons per photon.
 [[nodiscard]] Channel quantum_channel(std::string name, const Curve& response);
 
 /// The channel behind filters that receive light at all angles. A stack with shifting filters leaves
@@ -135,8 +127,7 @@ struct Channel {
 /// `peak`. Responses to energy S become efficiencies proportional to S(lambda)/lambda; responses to photons
 /// keep their shape. Throws Error{input} if no channel responds at any wavelength.
 [[nodiscard]] std::vector<Channel> with_peak_efficiency(std::vector<Channel> channels, double peak);
-/// Sets the channel's envelope for angles of incidence whose cosine is at least `min_cosine`. No effect on a
-/// channel without shifting filters.
+/// Sets the envelope of a channel with shifting filters for cosines of incidence of at least `min_cosine`.
 void limit_angles(Channel& channel, double min_cosine);
 
 /// Scale of quantum efficiencies. `absolute`: their values count; `relative`: only their ratios.
@@ -159,8 +150,7 @@ enum class ResponseScale { absolute, relative };
 /// Standard observer as a sensor: X, Y, Z with weights of 683.002 times the colour-matching functions. Y of
 /// 1931 is in lx s.
 [[nodiscard]] std::vector<Channel> observer_channels(Observer observer);
-/// Observer of three channels made by `observer_channels`, possibly behind filters. Nothing for other
-/// channels of the same names.
+/// Observer of three channels made by `observer_channels`, possibly behind filters; nothing for others.
 [[nodiscard]] std::optional<Observer> standard_observer(std::span<const Channel> channels);
 
 /// Reads the spectral sensitivities of a camera from the JSON of rawtoaces and physlight. Curves are named by
@@ -181,11 +171,10 @@ struct Incidence {
 };
 
 /// Channel of a pixel that receives light under several angles: its weight is the mean over them and no
-/// longer depends on the angle. A channel that does not depend on it stays unchanged. `angles` must not be
-/// empty, and its fractions must add up to 1.
+/// longer depends on the angle. `angles` must not be empty, and its fractions must add up to 1.
 [[nodiscard]] Channel averaged(Channel channel, std::span<const Incidence> angles);
 
-/// True if the weight of some channel depends on the angle of incidence.
+/// True if a channel depends on the angle of incidence.
 [[nodiscard]] bool any_angular(std::span<const Channel> channels);
 
 }  // namespace abbe

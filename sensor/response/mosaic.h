@@ -26,8 +26,7 @@ struct Mosaic {
   bool operator==(const Mosaic&) const = default;
 };
 
-/// Name of the only plane of a mosaic's film.
-inline constexpr const char* kRawPlane = "raw";
+inline constexpr const char* kRawPlane = "raw";  ///< Name of the only plane of a mosaic's film.
 
 /// Text of a pattern, such as "R,G/G,B": rows from the top, channels by their `names` in the order of the
 /// sensor.

@@ -18,6 +18,10 @@ Analyser analyser_of(int component) {
   return {0, component == 1 ? 1.0F : 0.0F, component == 2 ? 1.0F : 0.0F, component == 3 ? 1.0F : 0.0F};
 }
 
+bool counts_light(const Channel& channel) {
+  return !channel.analyser || channel.analyser->i > 0;
+}
+
 bool behind_polariser(const Channel& channel) {
   return channel.analyser && counts_light(channel) && channel.weight.integral() != 0;
 }
@@ -33,16 +37,8 @@ bool of_one_response(const Channel& a, const Channel& b) {
 }
 }  // namespace
 
-std::string name_of(const StokesPlane& plane) {
-  return fmt::format("{}{}", kPrefixes.at(static_cast<std::size_t>(plane.component)), plane.channel);
-}
-
-StokesPlane stokes_plane(std::string_view name) {
-  for (int component = 1; component < 4; ++component)
-    if (const std::string_view prefix = kPrefixes.at(static_cast<std::size_t>(component));
-        name.starts_with(prefix))
-      return {component, std::string(name.substr(prefix.size()))};
-  return {0, std::string(name)};
+std::string stokes_plane_name(int component, std::string_view channel) {
+  return fmt::format("{}{}", kPrefixes.at(static_cast<std::size_t>(component)), channel);
 }
 
 std::vector<Channel> with_stokes(std::vector<Channel> channels) {
@@ -50,7 +46,7 @@ std::vector<Channel> with_stokes(std::vector<Channel> channels) {
   for (int component = 1; component < 4; ++component)
     for (std::size_t k = 0; k < count; ++k) {
       Channel channel = channels[k];
-      channel.name = name_of({component, channel.name});
+      channel.name = stokes_plane_name(component, channel.name);
       channel.analyser = analyser_of(component);
       channels.push_back(std::move(channel));
     }
@@ -69,14 +65,15 @@ std::vector<Channel> intensities(std::span<const Channel> channels) {
 
 std::vector<std::string> intensities(std::span<const std::string> planes) {
   std::vector<std::string> selected;
-  std::copy_if(planes.begin(), planes.end(), std::back_inserter(selected),
-               [](const std::string& name) { return stokes_plane(name).component == 0; });
+  std::copy_if(planes.begin(), planes.end(), std::back_inserter(selected), [](const std::string& name) {
+    return std::none_of(kPrefixes.begin() + 1, kPrefixes.end(),
+                        [&](std::string_view prefix) { return name.starts_with(prefix); });
+  });
   return selected;
 }
 
 bool any_analyser(std::span<const Channel> channels) {
-  return std::any_of(channels.begin(), channels.end(),
-                     [](const Channel& channel) { return channel.analyser.has_value(); });
+  return std::ranges::any_of(channels, [](const Channel& c) { return c.analyser.has_value(); });
 }
 
 std::vector<std::optional<PolariserRow>> polariser_rows(std::span<const Channel> channels) {

@@ -11,32 +11,21 @@
 
 namespace abbe {
 
-/// A plane of a film that measures Stokes vectors: the component (0 to 3) of the light to which a channel
-/// responds.
-struct StokesPlane {
-  int component;  ///< 0 to 3 for I, Q, U and V.
-  std::string channel;
-};
-/// Name of a plane: "R" for the intensity I of channel R, "S1.R", "S2.R" and "S3.R" for Q, U and V.
-[[nodiscard]] std::string name_of(const StokesPlane& plane);
-/// Parses the name of a plane. Any name without one of these prefixes is that of an intensity.
-[[nodiscard]] StokesPlane stokes_plane(std::string_view name);
+/// Name of the plane of a film with a component (0 to 3 for I, Q, U and V) of the light to which a channel
+/// responds: "R" for the intensity of channel R, "S1.R", "S2.R" and "S3.R" for Q, U and V.
+[[nodiscard]] std::string stokes_plane_name(int component, std::string_view channel);
 
 /// The channels, which measure intensities, followed by copies that respond to component 1, then 2, then 3.
 /// No channel may have an analyser.
 [[nodiscard]] std::vector<Channel> with_stokes(std::vector<Channel> channels);
 
-/// True if the channel measures an intensity. The other components of a Stokes vector are signed.
-[[nodiscard]] inline bool counts_light(const Channel& channel) {
-  return !channel.analyser || channel.analyser->i > 0;
-}
-/// Number of channels that measure intensities.
+/// Number of channels that measure intensities. The other components of a Stokes vector are signed.
 [[nodiscard]] std::size_t count_intensities(std::span<const Channel> channels);
 /// Channels that measure intensities, which precede all others.
 [[nodiscard]] std::vector<Channel> intensities(std::span<const Channel> channels);
-/// Names of intensity planes.
+/// Names of intensity planes: those without the prefix of another component.
 [[nodiscard]] std::vector<std::string> intensities(std::span<const std::string> planes);
-/// True if some channel depends on polarisation.
+/// True if a channel depends on polarisation.
 [[nodiscard]] bool any_analyser(std::span<const Channel> channels);
 
 /// Row of a channel behind a polariser for light (I, Q, U) of constant spectrum: weight (I + q Q + u U), in

@@ -5,25 +5,6 @@
 #include <fmt/format.h>
 
 namespace abbe {
-namespace {
-
-/// Largest fraction of a response outside the rows of a table, and the name of that response.
-struct LostFraction {
-  double fraction = 0;
-  std::string response;
-};
-
-LostFraction largest_loss(const NamedCurve& table, const Curve& light,
-                          std::span<const NamedResponse> responses) {
-  LostFraction largest;
-  for (const NamedResponse& response : responses) {
-    const double fraction = fraction_outside(*response.weight, light, table.low_nm, table.high_nm).fraction;
-    if (fraction > largest.fraction) largest = {fraction, response.name};
-  }
-  return largest;
-}
-
-}  // namespace
 
 NeededRange needed_by(std::span<const Channel> channels) {
   NeededRange needed;
@@ -41,15 +22,16 @@ std::vector<NamedResponse> named_responses(std::span<const Channel> channels) {
   return responses;
 }
 
-bool check_table_range(const NamedCurve& table, const Curve& light, std::span<const Channel> channels,
-                       const SourcePosition& where, Diagnostics& diagnostics) {
-  return check_table_range(table, light, named_responses(channels), where, diagnostics);
-}
-
 bool check_table_range(const NamedCurve& table, const Curve& light, std::span<const NamedResponse> responses,
                        const SourcePosition& where, Diagnostics& diagnostics) {
   if (table.outside == Outside::clamp) return true;
-  const auto [fraction, response] = largest_loss(table, light, responses);
+  double fraction = 0;
+  std::string response;  // the one that loses most
+  for (const auto& [name, weight] : responses) {
+    const double lost = fraction_outside(*weight, light, table.low_nm, table.high_nm).fraction;
+    if (lost > fraction) response = name;
+    fraction = std::max(fraction, lost);
+  }
   if (!(fraction > kNegligibleFraction)) return true;
   if (table.outside == Outside::zero) {
     diagnostics.warning(
@@ -70,7 +52,7 @@ bool check_table_range(const NamedCurve& table, const Curve& light, std::span<co
 
 bool check_light_range(const NamedCurve& light, std::span<const Channel> channels,
                        const SourcePosition& where, Diagnostics& diagnostics) {
-  return check_table_range(light, extrapolated(light), channels, where, diagnostics);
+  return check_table_range(light, extrapolated(light), named_responses(channels), where, diagnostics);
 }
 
 }  // namespace abbe

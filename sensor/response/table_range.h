@@ -30,8 +30,6 @@ struct NamedResponse {
 /// - a table without a declared extrapolation causes an error with the code `input`, and the result is false.
 bool check_table_range(const NamedCurve& table, const Curve& light, std::span<const NamedResponse> responses,
                        const SourcePosition& where, Diagnostics& diagnostics);
-bool check_table_range(const NamedCurve& table, const Curve& light, std::span<const Channel> channels,
-                       const SourcePosition& where, Diagnostics& diagnostics);
 
 /// Checks that the table of a light covers all but a negligible fraction of the response of each channel.
 /// Reports and returns like `check_table_range`.

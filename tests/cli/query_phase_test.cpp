@@ -7,6 +7,7 @@
 #include "cli/query.h"
 #include "materials/interface/fresnel.h"
 #include "tests/cli/json_output.h"
+#include "tests/materials/fresnel_amplitudes.h"
 
 namespace abbe::test {
 namespace {

@@ -151,14 +151,14 @@ TEST(QueryList, TellsOfMatterWhereItHoldsAndWhoSaysSo) {
   EXPECT_DOUBLE_EQ(glass["high_nm"][at].get<double>(), 1013.98);
   EXPECT_NE(glass["source"][at].get<std::string>().find("hoya/optical/FCD1.yml"), std::string::npos);
   testing::internal::CaptureStdout();
-  EXPECT_EQ(cli::query_list({"material"}), 0);
+  EXPECT_NO_THROW(cli::query_list({"material"}));
   EXPECT_NE(testing::internal::GetCapturedStdout().find("\nAu_Johnson\t191.6-1937 nm\tP. B. Johnson"),
             std::string::npos);
   const json all = json_output(cli::query_list, {""});
   EXPECT_EQ(all["glass"].size(), 1634U);
   EXPECT_FALSE(all.contains("source"));
   testing::internal::CaptureStdout();
-  EXPECT_EQ(cli::query_list({""}), 0);
+  EXPECT_NO_THROW(cli::query_list({""}));
   EXPECT_NE(testing::internal::GetCapturedStdout().find(
                 "\nglass\n  1634 glasses of manufacturers, listed by --list glass\nilluminant\n"),
             std::string::npos);

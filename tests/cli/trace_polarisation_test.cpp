@@ -13,6 +13,7 @@
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
+#include "tests/materials/fresnel_amplitudes.h"
 #include "transport/path/ray_trace.h"
 
 namespace abbe::test {

@@ -15,6 +15,7 @@
 #include "materials/interface/fresnel.h"
 #include "materials/interface/mueller.h"
 #include "spectral/stokes.h"
+#include "tests/materials/fresnel_amplitudes.h"
 
 // Ghosts: light that surfaces of a lens reflect twice.
 

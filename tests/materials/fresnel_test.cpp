@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/angles.h"
+#include "tests/materials/fresnel_amplitudes.h"
 
 namespace abbe {
 namespace {

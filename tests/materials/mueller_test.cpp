@@ -15,6 +15,7 @@
 #include "materials/interface/thin_sheet.h"
 #include "materials/medium/phase.h"
 #include "sampling/angle.h"
+#include "tests/materials/fresnel_amplitudes.h"
 #include "tests/materials/mueller_rounding.h"
 #include "tests/materials/random_directions.h"
 

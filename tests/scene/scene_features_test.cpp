@@ -21,8 +21,7 @@ TEST(SceneFeatures, OfAPlainScene) {
   const SceneFeatures& features = scene.features;
   EXPECT_TRUE(features.delta_lights);
   EXPECT_FALSE(features.dispersion || features.media || features.caustics || features.light_tracing ||
-               features.environment || features.narrow_bands || features.polarisation_relevant ||
-               features.depth_of_field);
+               features.environment || features.polarisation_relevant || features.depth_of_field);
   EXPECT_EQ(features.light_is_traced, std::vector<bool>{false});
   EXPECT_TRUE(unsampled_paths(scene, features, false).empty());
 }
@@ -33,7 +32,6 @@ TEST(SceneFeatures, EachNamesWhatAsksForIt) {
   add_lamp(scene, 0.01);
   add_ball(scene, kGlass);
   scene.materials[kGlass].model = DielectricMaterial{"ink", RefractiveIndex(1.5, 1e-6)};
-  scene.channels.push_back(energy_channel("line", Curve({{500, 0}, {501, 1}, {502, 0}})));
   scene.camera.kind = ThinLens{{}, 0.05, INFINITY, 0.005};
   scene.commit();
   EXPECT_EQ(scene.features.reasons,
@@ -42,7 +40,6 @@ TEST(SceneFeatures, EachNamesWhatAsksForIt) {
                                                 {"polarisation_matters", "shape \"ball\""},
                                                 {"light_tracing", "light \"bulb\""},
                                                 {"delta_lights", "light \"bulb\""},
-                                                {"narrow_bands", "channel \"line\""},
                                                 {"depth_of_field", "camera"}}));
   for (const FeatureName& need : feature_names())
     EXPECT_EQ(scene.features.*need.member, scene.features.reasons.contains(need.key)) << need.key;
@@ -276,33 +273,6 @@ TEST(SceneFeatures, DepthOfField) {
   scene.camera.kind = ThinLens{{}, 0.05, INFINITY, 0.005};
   scene.commit();
   EXPECT_TRUE(scene.features.depth_of_field);
-}
-
-TEST(SceneFeatures, NarrowFeatures) {
-  EXPECT_FALSE(has_narrow_feature(Curve(1.0)));
-  EXPECT_FALSE(has_narrow_feature(Curve()));
-  EXPECT_FALSE(has_narrow_feature(planck(2856)));
-  EXPECT_FALSE(has_narrow_feature(daylight(6500)));
-  EXPECT_TRUE(has_narrow_feature(band(500, 509)));
-  EXPECT_FALSE(has_narrow_feature(band(500, 511)));
-  EXPECT_TRUE(has_narrow_feature(gaussian(500, 8)));
-  EXPECT_FALSE(has_narrow_feature(gaussian(500, 12)));
-  const SpectralLine line{546.1, 0.1, 1};
-  EXPECT_TRUE(has_narrow_feature(lines({&line, 1})));
-  EXPECT_TRUE(has_narrow_feature(sum(lines({&line, 1}), Curve(0.01)))) << "on a background";
-  EXPECT_FALSE(has_narrow_feature(sum(lines({&line, 1}), Curve(1000)))) << "a ripple";
-  EXPECT_TRUE(has_narrow_feature(scaled(band(500, 505), -1))) << "a signed response";
-
-  Scene scene = floor_scene();
-  scene.commit();
-  EXPECT_FALSE(scene.features.narrow_bands);
-  scene.channels.push_back(energy_channel("H-alpha", band(653, 660)));
-  scene.commit();
-  EXPECT_TRUE(scene.features.narrow_bands);
-  scene.channels.pop_back();
-  scene.lights.push_back({"sodium", EnvironmentLight{}, lines({&line, 1})});
-  scene.commit();
-  EXPECT_TRUE(scene.features.narrow_bands);
 }
 
 TEST(SceneFeatures, SunsAndBeamsAreTracedUnlessTheyLookLarge) {

@@ -104,7 +104,7 @@ TEST(CausticGuide, ChangesNoiseOnly) {
 
 // Photons bring the caustic that is seen directly, and camera paths, guided, the one that is seen through a
 // pane: nothing twice.
-TEST(CausticGuide, LooksBehindAPaneForWhatPhotonsBringBesideIt) {
+TEST(NightlyCausticGuide, LooksBehindAPaneForWhatPhotonsBringBesideIt) {
   const std::string pane =
       R"({"name": "pane", "quad": {"corner": [1.5, 0.1, -6], "edge_u": [2, 0, 1], "edge_v": [0, 4, 0]}, )"
       R"("material": "pane"})";

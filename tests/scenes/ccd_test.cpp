@@ -5,6 +5,7 @@
 #include "sensor/readout/readout.h"
 #include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
+#include "tests/tier.h"
 
 // What a sensor counts behind its filters, in physical units.
 
@@ -165,6 +166,7 @@ Centroid of_pixel(const Scene& scene, int x, int y) {
 class TiltedFilter : public testing::TestWithParam<const char*> {};
 
 TEST_P(TiltedFilter, TheCentreOfItsBandMovesByTheFormula) {
+  if (!test::nightly() && GetParam() != std::string("path")) GTEST_SKIP() << "takes long";
   const Scene scene = card(GetParam(), GetParam() == std::string("path") ? 512 : 16384);
   const RenderResult result = render(scene, {});
   EXPECT_EQ(result.stats.nonfinite_samples, 0U);
@@ -275,7 +277,7 @@ TEST(MosaicFilm, ExpectsWhatAFilmOfAllChannelsDoesWithLessNoise) {
   EXPECT_LT(found.variance_ratio, 0.9);
 }
 
-TEST(MosaicFilm, PhotonsMeetThePixelsFilter) {
+TEST(NightlyMosaicFilm, PhotonsMeetThePixelsFilter) {
   const Scene scene = narrow("glass_sphere.json", kBayer, 256);
   const RenderResult raw = render(scene, {});
   ASSERT_GT(raw.stats.paths, 256U * 48 * 48) << "no photon was traced";

@@ -131,7 +131,7 @@ TEST(Ghosts, OfWhatPhotonsLightAreTheSameByEveryTechnique) {
 
 // A small lamp's light that is reflected within the lens: of the flux through the stop the share that a trace
 // of even rays finds, spread over the film as these rays are.
-TEST(Ghosts, OfALampHaveTheTracedPowerAndPlace) {
+TEST(NightlyGhosts, OfALampHaveTheTracedPowerAndPlace) {
   constexpr const char* kLamp = R"({
     "abbe": 1, "units": "mm",
     "camera": {"lens_system": {"prescription": {"surfaces": [{"stop": true, "thickness": 0.5, "aperture": 0.8}, [60, 1, 2.0, 4], [-60, 30, null, 4]], "focus": "paraxial"},

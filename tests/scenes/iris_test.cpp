@@ -155,7 +155,7 @@ std::string still(const std::string& lens) {
   "render": {"max_depth": 4}})";
 }
 
-TEST(Iris, IsTheSameForEveryTechnique) {
+TEST(NightlyIris, IsTheSameForEveryTechnique) {
   const std::array lenses{
       with_blades(R"("thin_lens": {"focal_length": 0.05, "f_number": 1, "focus_distance": 0.5)", 4, 10),
       with_blades(R"("lens_system": {"prescription": "achromat", "focus_distance": 0.6)", 4, 10)};

@@ -119,7 +119,7 @@ EdgeResponse measured(const Film& film, int channel, const Edge& edge, double im
   return slanted_edge(values, width, height);
 }
 
-TEST(LensModulation, OfASlantedEdgeIsThatOfTheTracedSpots) {
+TEST(NightlyLensModulation, OfASlantedEdgeIsThatOfTheTracedSpots) {
   const Scene scene = bench(test::nightly() ? 2048 : 256);
   const double tolerance = test::nightly() ? 0.01 : 0.02;
   const LensOptics& optics = *std::get<LensSystem>(scene.camera.kind).optics;

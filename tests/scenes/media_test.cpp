@@ -169,7 +169,9 @@ TEST(Media, ThickMilkIsInvisibleInAFurnaceToo) {
 // wavelength, which changes nothing.
 TEST(Media, ADeepLayerReflectsByChandrasekharsFunction) {
   const ChandrasekharH h(0.9);
-  EXPECT_NEAR(h.mean(), 2 / 0.9 * (1 - std::sqrt(0.1)), 1e-5);  // its zeroth moment
+  double mean = 0;
+  for (int i = 0; i < 400; ++i) mean += h((i + 0.5) / 400) / 400;
+  EXPECT_NEAR(mean, 2 / 0.9 * (1 - std::sqrt(0.1)), 1e-5);  // its zeroth moment
   const std::string fog = fmt::format(
       R"("fog": {{"medium": {{"scattering_per_m": {{"scale": 0.9, "of": {0}}}, "absorption_per_m": {{"scale": 0.1, "of": {0}}}}}}})",
       kColoured);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include "tests/angles.h"
 #include "tests/scenes/meter_fixture.h"
@@ -115,6 +116,8 @@ double flux_between_discs(double least_cosine) {
 }
 
 TEST_P(MeterBy, TellsTheFluxBetweenDiscs) {
+  const std::string_view by = GetParam().integrator;
+  if (!test::nightly() && by != "path" && by != "light") GTEST_SKIP() << "takes long";
   const std::string lamp =
       R"("lights": [{"disc": {"center": [0, 0, 1], "normal": [0, 0, -1], "radius": 0.6}, "emission": {"illuminant": "E", "luminance": 1}}])";
   const std::string disc =
@@ -137,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, MeterBy,
 
 // A bulb of 1000 lm: a point in the middle of a shell of glass that absorbs. What its faces of reflectance R
 // and its glass of transmittance tau throw back comes to the shell again; all else leaves it.
-TEST(Meter, PhotonsTellTheFluxOfALampWithinGlass) {
+TEST(NightlyMeter, PhotonsTellTheFluxOfALampWithinGlass) {
   constexpr double kReflectance = 0.04;
   constexpr double kAbsorption_per_m = 20;
   constexpr double kThickness = 0.02;
@@ -158,7 +161,7 @@ TEST(Meter, PhotonsTellTheFluxOfALampWithinGlass) {
 
 // A lamp of 1000 lm in a bulb in a grey ball of 1 m: nothing else absorbs, so that the wall sends back what
 // it takes, rho/(1 - rho) of the flux, in even radiance everywhere.
-TEST(Meter, PathsAndPhotonsShareTheLightOfALampWithinGlass) {
+TEST(NightlyMeter, PathsAndPhotonsShareTheLightOfALampWithinGlass) {
   const std::string bulb =
       R"("lights": [{"sphere": {"center": [0, 0, 0], "radius": 0.03}, "material": "white", "emission": {"illuminant": "E", "luminous_flux_lm": 1000}}],
     "materials": {"glass": {"dielectric": {"ior": 1.5}}, "air": {"dielectric": {"ior": 1}, "priority": 1},
@@ -177,7 +180,7 @@ TEST(Meter, PathsAndPhotonsShareTheLightOfALampWithinGlass) {
 
 // A black ball of 0.1 m above a disc, and beside a sphere, of 1 m: photons from afar must not be sent to the
 // ball alone.
-TEST(Meter, SunlightReachesWhatIsBeyondTheShapes) {
+TEST(NightlyMeter, SunlightReachesWhatIsBeyondTheShapes) {
   const std::string sun =
       R"("lights": [{"sun": {"towards": [0, 0, 1], "illuminance": 1}}], "materials": {"black": {"diffuse": {"reflectance": 0}}},
     "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 0.1}, "material": "black"}])";
@@ -258,7 +261,7 @@ TEST(Meter, ReadsTheMeanWhileTheShutterIsOpen) {
 }
 
 // On a board that leans, under a lamp along its normal: nothing of the board stands in the meter's light.
-TEST(Meter, StandsOffTheSurfaceItLiesOn) {
+TEST(NightlyMeter, StandsOffTheSurfaceItLiesOn) {
   const std::string board =
       R"({"corner": [0, 0, 0], "edge_u": [1, 0.2, 0], "edge_v": [-0.1, 0.9998476952, 0.0174524064]})";
   const std::string lamp =

@@ -1,9 +1,11 @@
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include "tests/angles.h"
 #include "tests/scenes/meter_fixture.h"
 #include "tests/source_tree.h"
+#include "tests/tier.h"
 
 // The light of a luminaire with a cosine distribution, against its closed form.
 
@@ -36,6 +38,8 @@ constexpr double kInterpolated = 1 - (kPi / 90) * (kPi / 90) / 12;
 
 // 1000 lm downwards: pi I sin^2 of the half angle at which a disc below is seen, 45 degrees.
 TEST_P(CosineLuminaire, IlluminatesADisc) {
+  const std::string_view by = GetParam().integrator;
+  if (!test::nightly() && by != "path" && by != "light") GTEST_SKIP() << "takes long";
   const std::string disc =
       R"({"measures": "flux", "disc": {"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}})";
   for (const char* file : {"cosine.ies", "cosine.ldt"})

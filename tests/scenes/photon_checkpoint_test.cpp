@@ -53,6 +53,7 @@ class SavedAmidPhotons : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(SavedAmidPhotons, TheFilmIsThatOfWholePassesAndGoesOnAsItWas) {
+  if (!test::nightly() && GetParam() == std::string("vcm")) GTEST_SKIP() << "takes long";
   const auto amid_the_second = [](const RenderResult& r) {
     return !r.samples.empty() && r.unfinished->items > 3;
   };

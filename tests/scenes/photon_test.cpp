@@ -77,7 +77,7 @@ const std::string kPointLamp = R"({"name": "bulb", "point": {"at": [0.5, 0.5, 2.
   "emission": {"illuminant": "D65", "luminous_flux_lm": 1000}})";
 
 // Caustics that are seen through glass, of a lamp so large that paths meet it without being told where it is.
-TEST(Photons, MergingFindsCausticsSeenThroughGlassAsBruteForceDoes) {
+TEST(NightlyPhotons, MergingFindsCausticsSeenThroughGlassAsBruteForceDoes) {
   const std::string scene = ball_under(kBigLamp);
   const Film brute = film_of({"adjoint-brute", 16384}, scene);
   // The film positions of progressive photon mapping are few: those of a replicate, whatever its samples.
@@ -113,7 +113,7 @@ TEST(Photons, MergingFindsTheCausticsOfAPoint) {
 
 // Matter that scatters and absorbs, reliefs, coats and matter within matter: what photons bring is the light
 // of path tracing.
-TEST(Photons, GatheringFindsTheLightOfPathTracing) {
+TEST(NightlyPhotons, GatheringFindsTheLightOfPathTracing) {
   struct Compared {
     const char* scene;
     const char* radius;
@@ -144,7 +144,7 @@ TEST(Photons, GatheringFindsTheLightOfPathTracing) {
 
 // Fog that lets some wavelengths through better than others, so that no two lanes are as likely to have come.
 // By day not by stochastic progressive photon mapping.
-TEST(Photons, MergingBehindColouredFogFindsTheLightOfPathTracing) {
+TEST(NightlyPhotons, MergingBehindColouredFogFindsTheLightOfPathTracing) {
   const std::string fog = R"({"abbe": 1,
     "camera": {"pinhole": {"fov_deg": 40}, "from": [0, -3, 1], "to": [0, 0, 0.6], "up": [0, 0, 1]},
     "sensor": {"resolution": [32, 32], "observer": "1931"},
@@ -214,7 +214,7 @@ TEST(Photons, MapsBlurLessTheMorePhotonsThereAre) {
 
 // What a lamp in glass sends through fog to a floor that lies in the shade of all else: matter scatters it
 // after the floor, so that no photon of a caustic brings it there.
-TEST(Photons, AFinalGatherMeetsLampsInGlassThroughFog) {
+TEST(NightlyPhotons, AFinalGatherMeetsLampsInGlassThroughFog) {
   const std::string scene = R"({"abbe": 1,
     "camera": {"pinhole": {"fov_deg": 20}, "from": [0, 0, 0.5], "to": [0, 0, 0], "up": [0, 1, 0]},
     "sensor": {"resolution": [4, 4], "channels": {"Y": {"band": [500, 600]}}},
@@ -235,7 +235,7 @@ TEST(Photons, AFinalGatherMeetsLampsInGlassThroughFog) {
 
 // Photons that find an opening by themselves, from the lamps, see what paths that leave it do: in coloured
 // glass that takes some of them, and off a metal.
-TEST(BruteForce, PhotonsAndTheirAdjointsAgree) {
+TEST(NightlyBruteForce, PhotonsAndTheirAdjointsAgree) {
   const std::string scene = ball_under(
       kBigLamp,
       R"({"ior": 1.5, "absorption_per_m": {"gaussian": {"center_nm": 620, "fwhm_nm": 150, "peak": 2}}})");

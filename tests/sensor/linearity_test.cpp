@@ -15,8 +15,8 @@ namespace {
 
 // Relative deviations d from the line y = t at t = 1, 2, 3, 6 for which it remains the best line. With u =
 // d/(1 + d)^2, the sums of u and of u/t are both 0.
-std::vector<LinearityPoint> around_a_line(double u, double scale = 1) {
-  std::vector<LinearityPoint> points;
+std::vector<TransferPoint> around_a_line(double u, double scale = 1) {
+  std::vector<TransferPoint> points;
   for (const auto& [t, part] : {std::pair{1.0, u}, {2.0, -4 * u}, {3.0, 3 * u}, {6.0, 0.0}}) {
     const double d = part == 0 ? 0 : (1 - 2 * part - std::sqrt(1 - 4 * part)) / (2 * part);
     points.push_back({t, scale * t * (1 + d), 1, 1});
@@ -26,7 +26,7 @@ std::vector<LinearityPoint> around_a_line(double u, double scale = 1) {
 
 TEST(Linearity, TheErrorIsTheMeanRelativeDeviationFromTheBestLine) {
   double sum = 0;
-  for (const LinearityPoint& p : around_a_line(0.002)) sum += std::abs(p.signal_dn / p.exposure_s - 1);
+  for (const TransferPoint& p : around_a_line(0.002)) sum += std::abs(p.signal_dn / p.exposure_s - 1);
   EXPECT_NEAR(sum, 0.016, 2e-4);
   EXPECT_NEAR(linearity_error_percent(around_a_line(0.002), 10).value(), 100 * sum / 4, 1e-9);
   EXPECT_NEAR(linearity_error_percent(around_a_line(0.002, 100), 1000).value(), 100 * sum / 4, 1e-9);
@@ -34,7 +34,7 @@ TEST(Linearity, TheErrorIsTheMeanRelativeDeviationFromTheBestLine) {
 }
 
 TEST(Linearity, CountsSignalsBetweenTheEndsAloneUnderOneLight) {
-  std::vector<LinearityPoint> points = around_a_line(0.002);
+  std::vector<TransferPoint> points = around_a_line(0.002);
   const double error = linearity_error_percent(points, 10).value();
   points.push_back({8, 9.8, 1, 1});     // above 95 % of saturation
   points.push_back({0.3, 0.45, 1, 1});  // below 5 %
@@ -47,8 +47,8 @@ TEST(Linearity, CountsSignalsBetweenTheEndsAloneUnderOneLight) {
 }
 
 // y = l + b l^2 for light l, with the variance of photons scaled by its slope, for a gain of 2.
-std::vector<LinearityPoint> parabola(double b) {
-  std::vector<LinearityPoint> points;
+std::vector<TransferPoint> parabola(double b) {
+  std::vector<TransferPoint> points;
   for (const double l : {100.0, 200.0, 400.0, 600.0, 700.0}) {
     const double slope = 1 + 2 * b * l;
     const double variance = slope * slope * l / 2;
@@ -59,10 +59,10 @@ std::vector<LinearityPoint> parabola(double b) {
 
 TEST(Linearity, TheBiasOfTheGainIsThatOfItsFit) {
   for (const double b : {-2e-5, -1e-6, 3e-5}) {
-    const std::vector<LinearityPoint> points = parabola(b);
+    const std::vector<TransferPoint> points = parabola(b);
     double squares = 0;
     double products = 0;
-    for (const LinearityPoint& p : points) {
+    for (const TransferPoint& p : points) {
       squares += p.signal_dn * p.signal_dn;
       products += p.signal_dn * p.variance_dn2;
     }
@@ -74,7 +74,7 @@ TEST(Linearity, TheBiasOfTheGainIsThatOfItsFit) {
     EXPECT_NEAR(by_variances.value, bias, 0.05 * std::abs(bias)) << b;
     EXPECT_NEAR(by_variances.standard_error, 1e-3, 7e-4) << b;
   }
-  EXPECT_FALSE(gain_bias(std::vector<LinearityPoint>(5, parabola(0)[0]), false)) << "one signal";
+  EXPECT_FALSE(gain_bias(std::vector<TransferPoint>(5, parabola(0)[0]), false)) << "one signal";
 }
 
 // Codes of a parabola that is 2 % steeper in weak light, which no file declares. Response curves are linear

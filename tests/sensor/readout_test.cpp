@@ -337,10 +337,10 @@ TEST(Readout, TheSaturationSpeedFollowsIso12232) {
   const double per_lx_s =
       integral_of_product(daylight->curve, channels[1].weight) / photometric(daylight->curve);
   const double saturating_lx_s = 30000 / area / per_lx_s;
-  const double sensitivity = sensitivity_e_per_lx_s(channels, area, daylight->curve);
+  const double sensitivity = daylight_sensitivity(channels, area).value();
   EXPECT_NEAR(saturation_speed(readout, sensitivity), 78 / saturating_lx_s, 1e-9);
   const std::vector longer{exposed(channels[1], 4)};  // its exposure in lx s is longer too
-  EXPECT_NEAR(sensitivity_e_per_lx_s(longer, area, daylight->curve) / sensitivity, 1, 1e-9);
+  EXPECT_NEAR(daylight_sensitivity(longer, area).value() / sensitivity, 1, 1e-9);
   readout.full_well_e = 60000;  // now the codes end first
   EXPECT_NEAR(saturation_speed(readout, sensitivity), 78 / saturating_lx_s * 0.75, 1e-9);
   // 1 lx s of daylight up to 830 nm is 5.51 mJ/m^2 or 1.635e16 photons/m^2, of which this pixel counts

@@ -96,7 +96,7 @@ TEST(SpectralFilm, StokesComponentsBecomeRadiancesToo) {
   Image polarised = binned_film();
   for (int component = 1; component < 4; ++component)
     for (const int nm : {405, 415, 425}) {
-      const std::string name = name_of({component, std::to_string(nm) + "nm"});
+      const std::string name = stokes_plane_name(component, std::to_string(nm) + "nm");
       polarised.channels.push_back({name, {static_cast<float>(component), -1}});
       polarised.channels.push_back({"Variance." + name, {1, 4}});
     }

@@ -50,11 +50,19 @@ double cost_ratio_of(const Scene& scene, std::uint32_t pixels) {
   Scene joining = scene;
   joining.render.integrator = Integrator::bdpt;
   const TechniqueStatistics apart = measure_techniques(make_trained_plan(scene, 2), 2, pixels);
-  const TechniqueStatistics joined = measure_techniques(make_plan(joining), 2, pixels);
+  const TechniqueStatistics joined = measure_techniques(make_plan(joining), 2, pixels, apart.region_means);
   const double by_chance = joined.path_tracing_square - (apart.path_square - apart.path_variance);
   const double apart_root = std::sqrt(std::max(apart.path_variance, by_chance) * apart.path_rays) +
                             std::sqrt(apart.photon_variance * apart.photon_rays);
   return apart_root * apart_root / (2 * joined.path_rays * (joined.path_variance + joined.photon_variance));
+}
+
+// Of sunlight through a hole onto a drop, photons that are not guided find so little that each of them seems
+// to be the mean of its region.
+TEST(ChooseIntegrator, KnowsTheNoiseOfLightThatItFindsByRareChance) {
+  const IntegratorChoice choice = choose_integrator(load("scenes/rainbow.json"), 2);
+  EXPECT_EQ(choice.integrator, Integrator::automatic);
+  EXPECT_LT(choice.cost_ratio.value_or(0), 0.1);
 }
 
 TEST(ChooseIntegrator, JoinsWhereThatCostsSoMuchLessAtEqualError) {

@@ -30,7 +30,7 @@ Film::Average mean_of(const Scene& scene) {
 
 // L = Le/(1 - rho). The fraction rho^9 of it has had more than eight scattering events. Light tracing alone
 // excludes Le itself, which the camera receives from the emitter.
-TEST(Roulette, LeavesTheMeanOfAFurnaceWhateverTheDepthItBeginsAt) {
+TEST(NightlyRoulette, LeavesTheMeanOfAFurnaceWhateverTheDepthItBeginsAt) {
   const Film::Average emitted = mean_of(furnace(0, Integrator::path, 4));
   for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light})
     for (const double reflectance : {0.5, 0.9})

@@ -15,7 +15,7 @@ struct Planted {
   Case good{Suite::optics, "good", "a < b", "[Born1999]", "mm", {0.5}, Computed{}};
   Case bad{Suite::colour, "bad", "off", "[CIE15]", "", {0.01, Margin::Kind::relative}, Computed{}};
   ValidationReport report{
-      {"cpu", 2, "compiler", "-O3", "2026-01-01T00:00:00Z"}, "9.9", "abc", true, {}, {}, {3, 9}};
+      {"cpu", 2, "compiler", "-O3", "2026-01-01T00:00:00Z"}, "9.9", "abc", true, {}, {3, 9}};
 
   Planted() {
     CaseResult right{{{"x", 1, {1.25, 0}}}, good.margin, Verdict::pass, 0, 0, 2};
@@ -112,7 +112,7 @@ TEST(Report, HtmlIsSelfContainedAndEscaped) {
 // A film by three integrators: one passes, one cannot sample the light, and one fails.
 struct PlantedCells {
   std::array<Case, 3> cells{cell(Integrator::path), cell(Integrator::light), cell(Integrator::bdpt)};
-  ValidationReport report{{}, "9.9", "abc", true, {}, {}, {3, 9}};
+  ValidationReport report{{}, "9.9", "abc", true, {}, {3, 9}};
 
   PlantedCells() {
     CaseResult lost{{}, {0.01, Margin::Kind::relative}, Verdict::pass, 0, 0, 0};

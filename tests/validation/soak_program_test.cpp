@@ -30,7 +30,7 @@ TEST(Soak, AFailingSceneIsKeptAndTold) {
   EXPECT_TRUE(std::filesystem::exists(scene));
 }
 
-TEST(Soak, ASeedIsOneSceneWhereverItStands) {
+TEST(NightlySoak, ASeedIsOneSceneWhereverItStands) {
   const auto rays = [](const std::string& paths, const std::string& seed) {
     return abbe(soak(paths, seed, "seed")).json()["rays"].get<std::uint64_t>();
   };

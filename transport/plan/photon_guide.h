@@ -24,7 +24,7 @@ struct GuidedPoint {
   float pdf;
 };
 
-/// Sphere around a specular shape, in world space [m].
+/// A sphere around a specular shape, in world space [m].
 struct BoundingSphere {
   Imath::V3f center;
   float radius;

@@ -25,7 +25,7 @@ Imath::Box3d bounds_where(const Scene& scene, Holds holds) {
   return box;
 }
 
-// Sphere through which photons of distant lights are sent: around all refracting and specular shapes, or
+// The sphere through which photons of distant lights are sent: around all refracting and specular shapes, or
 // around everything nearby if photons are the only technique.
 struct TargetSphere {
   Imath::V3d center{0};

@@ -93,7 +93,8 @@ std::optional<double> cost_ratio(const Plan& unidirectional, const Scene& altern
   for (const std::uint32_t pixels : {kFirst, kFewPixels, kManyPixels}) {
     if (pixels * rays_per_pixel > alternative.max_rays) return std::nullopt;
     const TechniqueStatistics by_paths = measure_techniques(unidirectional, threads, pixels);
-    const TechniqueStatistics by_alternative = measure_techniques(plan, threads, pixels);
+    const TechniqueStatistics by_alternative =
+        measure_techniques(plan, threads, pixels, by_paths.region_means);
     rays_per_pixel = static_cast<double>(by_paths.rays + by_alternative.rays) / pixels;
     const double cost = alternative.cost(by_alternative);
     if (pixels == kFirst || !(cost > 0)) continue;

@@ -290,26 +290,31 @@ class VarianceError {
   double scatter_ = 0;
 };
 
-// Statistics from the sums. Each region's mean is that of its camera paths plus that of its photons. Squares
-// and variances are divided by the squared mean plus a floor, and scaled from the pilots to all pixels.
+// Statistics from the sums. Each region's own mean is that of its camera paths plus that of its photons;
+// `region_means` replaces it where it is above 0. Squares and variances are divided by the squared mean plus
+// a floor, and scaled from the pilots to all pixels.
 TechniqueStatistics relative_statistics(const PilotSums& sums, const Camera& camera,
-                                        std::uint32_t pilot_pixels) {
+                                        std::uint32_t pilot_pixels, std::span<const double> region_means) {
   const double pixels = static_cast<double>(camera.width) * camera.height;
   const double photons = std::max(1.0, sums.photons_traced);
-  const auto mean = [&](const Region& region, double size) {
-    return (region.pixels > 0 ? region.mean / region.pixels : 0) + region.photons / (photons * size);
-  };
   const std::vector<double> sizes = region_sizes(camera);
-  double film_mean = 0;
-  for (std::size_t i = 0; i < sizes.size(); ++i)
-    if (sizes[i] > 0) film_mean += mean(sums.regions.at(i), sizes[i]) * sizes[i] / pixels;
   TechniqueStatistics statistics;
+  std::vector<double>& means = statistics.region_means;
+  double film_mean = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const Region& region = sums.regions.at(i);
+    means.push_back(i < region_means.size() ? region_means[i] : 0);
+    if (!(sizes[i] > 0)) continue;
+    if (!(means[i] > 0))
+      means[i] =
+          (region.pixels > 0 ? region.mean / region.pixels : 0) + region.photons / (photons * sizes[i]);
+    film_mean += means[i] * sizes[i] / pixels;
+  }
   double split_variance = 0;
   VarianceError variance_error;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const Region& region = sums.regions.at(i);
-    const double scale =
-        sizes[i] > 0 ? std::pow(mean(region, sizes[i]), 2) + kUsualFloor * film_mean * film_mean : 0;
+    const double scale = sizes[i] > 0 ? std::pow(means[i], 2) + kUsualFloor * film_mean * film_mean : 0;
     if (!(scale > 0)) continue;
     statistics.photon_variance += region.squares / (photons * pixels) / scale;
     split_variance += region.split_squares / (std::max(1.0, sums.split_photons) * pixels) / scale;
@@ -417,8 +422,9 @@ std::optional<TechniqueCosts> balance_techniques(Plan& plan, int threads) {
                         {statistics.photon_variance / pixels, statistics.photon_rays}};
 }
 
-TechniqueStatistics measure_techniques(const Plan& plan, int threads, std::uint32_t pixels) {
-  return relative_statistics(measure_all(plan, threads, pixels), plan.scene.camera, pixels);
+TechniqueStatistics measure_techniques(const Plan& plan, int threads, std::uint32_t pixels,
+                                       std::span<const double> region_means) {
+  return relative_statistics(measure_all(plan, threads, pixels), plan.scene.camera, pixels, region_means);
 }
 
 void choose_path_splitting(Plan& plan, int threads) {

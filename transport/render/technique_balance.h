@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "transport/plan/plan.h"
 
@@ -61,7 +63,8 @@ struct TechniqueStatistics {
   /// continues with its hero wavelength alone. Set if splitting costs less at equal error; then all photon
   /// figures are for photons that split.
   std::optional<double> split_ray_ratio = {};
-  std::uint64_t rays = 0;  ///< Rays of all pilots.
+  std::uint64_t rays = 0;                 ///< Rays of all pilots.
+  std::vector<double> region_means = {};  ///< Mean of each region of the film.
 };
 
 /// Number of camera paths that pilots trace through a pixel.
@@ -73,8 +76,13 @@ inline constexpr std::uint32_t kPilotPathsPerPixel = 8;
 /// again that split into their wavelengths. Bidirectional path tracing has as many photons as camera paths,
 /// and its splats count as those of photons. Costs are numbers of rays, so the result depends on the plan and
 /// on `pixels` alone, not on `threads`, which is at least 1.
+///
+/// Variances are relative to `region_means`, those of another integrator's pilots, or to own means where
+/// these are absent or 0. The means of few, rare hits are large, so that own means would hide the noise of an
+/// integrator that finds the light rarely.
 [[nodiscard]] TechniqueStatistics measure_techniques(const Plan& plan, int threads,
-                                                     std::uint32_t pixels = 4096);
+                                                     std::uint32_t pixels = 4096,
+                                                     std::span<const double> region_means = {});
 
 /// Sets `Plan::log2_splits`, the path splitting [Arvo1990] of Integrator::automatic: the base-2 logarithm of
 /// the number of directions, 1, 2, 4 or 8, in which a camera path continues from its first scattering

@@ -13,17 +13,17 @@ std::optional<Opening> probe_opening(const Camera& camera) {
   return is_probe(camera) ? traits(camera).opening : std::nullopt;
 }
 
-std::optional<Sphere> ball_around(const Camera& meter, std::optional<double> radius) {
-  return radius ? std::optional(Sphere{center(meter), *radius}) : std::nullopt;
+std::optional<Ball> ball_around(const Camera& meter, std::optional<double> radius) {
+  return radius ? std::optional(Ball{center(meter), *radius}) : std::nullopt;
 }
 
 // Connection of a ray that enters a ball around a probe or starts within it, whatever its direction. Within
 // the ball the point is one offset length away, because a segment of length 0 has no direction.
-std::optional<CameraConnection> connection_into(const Sphere& ball, const Camera& meter, const Ray& light) {
+std::optional<CameraConnection> connection_into(const Ball& ball, const Camera& meter, const Ray& light) {
   const Ray at_rest = ray_in_rest_frame(meter, light);
   const bool within = (Imath::V3d(at_rest.origin) - ball.center).length() <= ball.radius;
-  const std::optional<double> distance =
-      within ? static_cast<double>(offset_length(light.origin)) : crossing(SphereSide{ball}, at_rest);
+  const std::optional<double> distance = within ? static_cast<double>(offset_length(light.origin))
+                                                : crossing(SphereSide{{ball.center, ball.radius}}, at_rest);
   if (!distance) return std::nullopt;
   const Imath::V3f point(Imath::V3d(light.origin) + Imath::V3d(light.direction) * *distance);
   return CameraConnection{{0, 0}, point, 1, SampledSpectrum(1.0F), 1};

@@ -119,7 +119,7 @@ class LightTracer : public PathCallbacks<TransportMode::power>, public LayerSour
   float scale_;
   bool sole_technique_;  // no other technique is in the plan
   std::optional<Opening> probe_opening_;
-  std::optional<Sphere> ball_;
+  std::optional<Ball> ball_;
   FilmResponse response_;
   bool measures_polarisation_;
   PathBatch<LightTracer> batch_;

@@ -15,11 +15,11 @@ namespace abbe {
 namespace {
 
 // Ball around the scene's nearby shapes, through which light from infinity is sent.
-struct Ball {
+struct SceneBall {
   Imath::V3f center;
   float radius;
 };
-Ball ball_around(const Scene& scene) {
+SceneBall ball_around(const Scene& scene) {
   const Imath::V3d center = scene.bounds.isEmpty() ? Imath::V3d(0) : scene.bounds.center();
   return {Imath::V3f(center), static_cast<float>(scene_radius(scene.bounds))};
 }
@@ -37,8 +37,7 @@ EmittedRay emit_from_nearby(const Light& light, std::uint32_t index, const Scene
   const EmissionPoint from = sample_emission_point(light, scene.shapes, {start[0], start[1]}, time);
   const Imath::V3f wo =
       emission_direction(light, from.normal, {direction_random[0], direction_random[1]}, time);
-  const Ray ray =
-      light.is<AreaLight>() ? spawn(from.point, from.normal, wo, time) : ray_at(from.point, wo, time);
+  const Ray ray = surface_of(light) ? spawn(from.point, from.normal, wo, time) : ray_at(from.point, wo, time);
   return {{index, from.point, from.normal}, ray, emission_density(light, from.normal, wo, 1, time)};
 }
 
@@ -47,7 +46,7 @@ std::optional<EmittedRay> emit_from_infinity(const Light& light, std::uint32_t i
                                              RayCaster& caster, const std::array<float, 4>& direction_random,
                                              const std::array<float, 4>& start, float time) {
   const LightSample from = *sample_light(light, scene.shapes, {}, {start[0], start[1]}, time);
-  const Ball ball = ball_around(scene);
+  const SceneBall ball = ball_around(scene);
   const Basis<float> across(from.wi);
   const float phi = 2 * std::numbers::pi_v<float> * direction_random[1];
   const float r = ball.radius * std::sqrt(direction_random[0]);
@@ -102,8 +101,8 @@ PhotonRay start_near(const Plan& plan, const PowerLightSampler::SampledLight& pi
       plan.guides.photon_guides[pick.light].sample(light, from, u.choice, u.guide, u.time);
   const float factor = emission_factor(light, from.normal, guided.wi, u.time);
   if (!(factor > 0)) return {};
-  return {light.is<AreaLight>() ? spawn(from.point, from.normal, guided.wi, u.time)
-                                : ray_at(from.point, guided.wi, u.time),
+  return {surface_of(light) ? spawn(from.point, from.normal, guided.wi, u.time)
+                            : ray_at(from.point, guided.wi, u.time),
           factor / (pick.probability * from.pdf_area * guided.pdf)};
 }
 
@@ -128,8 +127,7 @@ PhotonRay start_distant(const Plan& plan, RayCaster& caster, const PowerLightSam
   const float factor = emission_factor(light, from.normal, wi, u.time);
   if (!(factor > 0)) return {ray};
   if (caster.occluded(shadow_ray_between(
-          ray.origin, light.is<AreaLight>() ? offset_point(from.point, from.normal, wi) : from.point,
-          u.time)))
+          ray.origin, surface_of(light) ? offset_point(from.point, from.normal, wi) : from.point, u.time)))
     return {ray};
   const float cosines = factor * std::abs(guide.axis().dot(wi));
   const double density = static_cast<double>(pick.probability * from.pdf_area) * static_cast<double>(at.pdf) *
@@ -251,7 +249,7 @@ EndDensities end_densities(const Plan& plan, const PathVertex& illuminated, cons
   EndDensities ends;
   const PathSegment segment = segment_between(light, illuminated);
   if (!plan.traced_lights.empty()) {
-    const Ball ball = ball_around(scene);
+    const SceneBall ball = ball_around(scene);
     const EmissionDensity density =
         emission_density(emitter, at.normal, segment.direction, ball.radius, illuminated.time);
     const float probability = plan.traced_lights.probability(at.light);

@@ -152,14 +152,13 @@ std::vector<Change> compare_runs(std::span<const BaselineRow> before, std::span<
   const auto subject_of = [](const BaselineRow& row) { return Subject(row.suite, row.integrator); };
   std::vector<Subject> subjects;
   for (const BaselineRow& row : after)
-    if (std::find(subjects.begin(), subjects.end(), subject_of(row)) == subjects.end())
-      subjects.push_back(subject_of(row));
+    if (std::ranges::find(subjects, subject_of(row)) == subjects.end()) subjects.push_back(subject_of(row));
   std::vector<Change> changes;
   for (const Subject& subject : subjects) {
     std::vector<double> times;
     std::vector<double> errors;
     for (const BaselineRow& now : after) {
-      const auto then = std::find_if(before.begin(), before.end(), [&](const BaselineRow& row) {
+      const auto then = std::ranges::find_if(before, [&](const BaselineRow& row) {
         return subject_of(row) == subject && subject_of(now) == subject && row.samples == now.samples &&
                row.seed == now.seed;
       });

@@ -12,18 +12,17 @@
 
 namespace abbe {
 
-/// One render of a stored run.
+/// One render of a stored run, with figures as in `BenchRow`.
 struct BaselineRow {
   std::string suite;
-  std::string integrator;  ///< Name of the integrator, one of `kIntegratorNames`.
-  int samples;             ///< Samples per pixel.
+  std::string integrator;
+  int samples;
   std::uint64_t seed;
-  double cpu_s;    ///< CPU time as in `BenchRow`.
-  double paths;    ///< Number of paths.
-  double rel_mse;  ///< Error as in `BenchRow`; may be negative.
+  double cpu_s;
+  double paths;
+  double rel_mse;
 };
 
-/// One suite of a stored run.
 struct BaselineSuite {
   std::string name;
   BenchConditions conditions;
@@ -33,7 +32,7 @@ struct BaselineSuite {
 /// A stored run, read from a `bench.json`.
 struct Baseline {
   std::vector<BaselineSuite> suites;
-  std::vector<BaselineRow> rows;  ///< Rows of all suites, in the order of the file.
+  std::vector<BaselineRow> rows;  ///< Of all suites, in the order of the file.
 };
 
 /// Reads the run of a `bench.json`. A row without an integrator was rendered by `auto`. Faults of the file
@@ -41,11 +40,10 @@ struct Baseline {
 [[nodiscard]] std::optional<Baseline> load_baseline(const std::filesystem::path& path,
                                                     Diagnostics& diagnostics);
 
-/// Reports an error with ErrorCode::input if the suite was measured under conditions that differ from `now`,
-/// and names each difference.
+/// Reports an error with ErrorCode::input that names each condition in which the suite differs from `now`.
 void require_comparable(const BaselineSuite& then, const BenchConditions& now, Diagnostics& diagnostics);
 
-/// Rows of this program's runs in the form of a stored run, in their order.
+/// Rows of this program's runs, in their order.
 [[nodiscard]] std::vector<BaselineRow> baseline_rows(std::span<const SuiteRun> runs);
 
 /// Ratio of the new to the old value: the geometric mean over the renders that both runs contain. It is 1
@@ -56,7 +54,6 @@ struct Ratio {
   /// mean logarithm. The scatter over sample counts and seeds gives s. Infinite for a single pair.
   double noise;
 
-  /// Ends of the interval: value/(1 + noise) and value (1 + noise).
   [[nodiscard]] double low() const { return value / (1 + noise); }
   [[nodiscard]] double high() const { return value * (1 + noise); }
   /// True if the ratio differs from 1 by more than its noise and by more than 2 %.
@@ -66,10 +63,10 @@ struct Ratio {
 /// Change of one suite, rendered by one integrator, from the old run to the new one.
 struct Change {
   std::string suite;
-  std::string integrator;  ///< Name of the integrator, one of `kIntegratorNames`.
-  std::size_t pairs;       ///< Number of renders that both runs contain.
-  Ratio cpu_per_path;      ///< Ratio of CPU time divided by the number of paths.
-  Ratio rel_mse;           ///< Ratio of relMSE, over the pairs in which both errors are positive.
+  std::string integrator;
+  std::size_t pairs;   ///< Number of renders that both runs contain.
+  Ratio cpu_per_path;  ///< Ratio of CPU time divided by the number of paths.
+  Ratio rel_mse;       ///< Over the pairs in which both errors are positive.
 };
 
 /// Pairs the renders of equal suite, integrator, sample count and seed. The changes have the order of

@@ -15,19 +15,17 @@ namespace abbe {
 /// triangles that face outwards; `rows` >= 2.
 [[nodiscard]] Mesh make_bumpy_ball(std::uint32_t rows);
 
-/// Ring of rectangular cross-section on the plane y = 0, around the y axis. The inner radius is 0.9, the
-/// outer radius 1 and the height 0.5. It has 8 `sides` triangles that face out of the solid; `sides` >= 3.
-/// Each flat face spans the angle 2 pi/`sides`.
+/// Ring on the plane y = 0 around the y axis, with inner radius 0.9, outer radius 1 and height 0.5. It has
+/// 8 `sides` triangles that face out of the solid; `sides` >= 3.
 [[nodiscard]] Mesh make_ring(std::uint32_t sides);
 
-/// Writes a mesh as binary PLY with vertices rounded to float, in the unit of the mesh. The file appears
-/// complete or not at all. Throws Error{output} if it cannot be written.
+/// Writes a mesh as binary PLY with vertices rounded to float. Throws Error{output} if it cannot be
+/// written.
 void write_ply(const std::filesystem::path& path, const Mesh& mesh);
 
-/// JSON array of `rows`^2 lights (`rows` >= 1) below the ceiling of the hall in `data/bench/hall.json`, for
-/// its key `lights`. They are panels, balls and spots of the illuminants A, D65 and FL11, with luminous
-/// fluxes from 1 to 30 lm. Each is in its own cell of a grid of `rows` x `rows`. The positions in the cells
-/// and the fluxes follow low-discrepancy sequences, so the result is the same on every platform.
+/// JSON array of `rows`^2 panels, balls and spots (`rows` >= 1) of 1 to 30 lm below the ceiling of the hall
+/// in `data/bench/hall.json`. Each is in its own cell of a grid. Positions and fluxes follow low-discrepancy
+/// sequences, so the result is the same on every platform.
 [[nodiscard]] std::string make_lights(int rows);
 
 }  // namespace abbe

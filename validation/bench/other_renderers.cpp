@@ -39,11 +39,6 @@ std::optional<OtherRendererResult> read_result(const Table& table, std::size_t r
   return diagnostics.has_errors() ? std::nullopt : std::optional(other);
 }
 
-double log_interpolate(double at, double from, double to, double log_t0, double log_t1) {
-  const double t = std::log(at / from) / std::log(to / from);
-  return std::exp(log_t0 + t * (log_t1 - log_t0));
-}
-
 }  // namespace
 
 std::vector<OtherRendererResult> load_other_renderers() {
@@ -72,7 +67,9 @@ std::optional<TimeAtError> time_at_error(std::span<const CurvePoint> curve, doub
     const CurvePoint& a = curve[i - 1];
     const CurvePoint& b = curve[i];
     if ((a.error - error) * (b.error - error) > 0 || a.error == b.error) continue;
-    return TimeAtError{log_interpolate(error, a.error, b.error, std::log(a.cpu_s), std::log(b.cpu_s)), false};
+    const double t = std::log(error / a.error) / std::log(b.error / a.error);
+    const double log_a = std::log(a.cpu_s);
+    return TimeAtError{std::exp(log_a + t * (std::log(b.cpu_s) - log_a)), false};
   }
   const CurvePoint& end = error > curve.front().error ? curve.front() : curve.back();
   return TimeAtError{end.cpu_s * std::pow(end.error / error, 2), end.error != error};

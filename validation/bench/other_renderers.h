@@ -11,11 +11,11 @@ namespace abbe {
 
 /// Error and run time of another renderer on a suite.
 struct OtherRendererResult {
-  std::string suite;            ///< Name of a `BenchSuite`.
-  std::string renderer;         ///< Name and version, such as "Mitsuba 3.8".
-  std::string setting;          ///< Integrator and variant, such as "path llvm_spectral".
-  int samples;                  ///< Samples per pixel, or passes.
-  double cpu_s;                 ///< CPU time of all threads.
+  std::string suite;
+  std::string renderer;  ///< Name and version, such as "Mitsuba 3.8".
+  std::string setting;   ///< Integrator and variant, such as "path llvm_spectral".
+  int samples;           ///< Samples per pixel, or passes.
+  double cpu_s;
   std::optional<double> nrmse;  ///< RMSE divided by the mean of the reference; nothing if not measured.
   double relrmse;               ///< Square root of relMSE (`rel_mse`) with `floor`.
   double floor;                 ///< `kUsualFloor` or `kLowFloor`.
@@ -28,7 +28,6 @@ struct OtherRendererResult {
 /// is not positive, or if a floor is neither of the two.
 [[nodiscard]] std::vector<OtherRendererResult> load_other_renderers();
 
-/// A point of a curve of error against run time.
 struct CurvePoint {
   double cpu_s;
   double error;  ///< relRMSE, > 0.
@@ -39,7 +38,6 @@ struct CurvePoint {
 /// positive are omitted.
 [[nodiscard]] std::vector<CurvePoint> error_curve(const std::vector<BenchRow>& rows, double floor);
 
-/// A run time interpolated from a curve.
 struct TimeAtError {
   double cpu_s;
   bool extrapolated;  ///< True if the error lies outside the curve.
@@ -54,14 +52,13 @@ struct TimeAtError {
 /// Run times of another renderer and of Abbe at the other renderer's error.
 struct EqualError {
   OtherRendererResult other;
-  TimeAtError abbe;  ///< Run time of Abbe at the error `other.relrmse`.
+  TimeAtError abbe;
 
-  /// Run time of the other renderer divided by Abbe's.
   [[nodiscard]] double ratio() const { return other.cpu_s / abbe.cpu_s; }
 };
 
-/// Compares the first integrator of a run with all results of other renderers for its suite, in their order.
-/// Results for other suites are ignored. Empty if Abbe's errors are all hidden by noise.
+/// Compares the first integrator of a run with the results of other renderers for its suite, in their order.
+/// Empty if Abbe's errors are all hidden by noise.
 [[nodiscard]] std::vector<EqualError> equal_errors(const SuiteRun& run,
                                                    std::span<const OtherRendererResult> other_renderers);
 

@@ -1,7 +1,7 @@
 #include "validation/bench/report.h"
 
+#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -37,12 +37,6 @@ void add_series(LogPlot& plot, const SuiteRun& run, std::span<const OtherRendere
       plot.series.push_back({name, {}, kColors[color++ % kColors.size()], low, low});
     plot.series.back().points.emplace_back(other.cpu_s, other.relrmse);
   }
-}
-
-bool has_floor(const SuiteRun& run, std::span<const OtherRendererResult> other_renderers, double floor) {
-  for (const OtherRendererResult& other : other_renderers)
-    if (other.suite == run.suite.name && other.floor == floor) return true;
-  return false;
 }
 
 std::string rows_text(const SuiteRun& run) {
@@ -178,13 +172,6 @@ Json ratio_json(const Ratio& ratio) {
           {"changed", ratio.changed()}};
 }
 
-Json machine_json(const Machine& machine) {
-  return {{"cpu", machine.cpu},
-          {"cores", machine.cores},
-          {"compiler", machine.compiler},
-          {"flags", machine.flags}};
-}
-
 }  // namespace
 
 std::string readable_text(const BenchReport& report) {
@@ -206,7 +193,9 @@ LogPlot error_plot(const SuiteRun& run, std::span<const OtherRendererResult> oth
   LogPlot plot{run.suite.name, "CPU time / s", "relRMSE", {}};
   std::size_t color = 0;
   for (const double floor : {kUsualFloor, kLowFloor})
-    if (floor == kUsualFloor || has_floor(run, other_renderers, floor))
+    if (floor == kUsualFloor || std::ranges::any_of(other_renderers, [&](const OtherRendererResult& other) {
+          return other.suite == run.suite.name && other.floor == floor;
+        }))
       add_series(plot, run, other_renderers, floor, color);
   return plot;
 }
@@ -250,9 +239,14 @@ std::string csv_text(std::span<const SuiteRun> runs) {
 }
 
 std::string json_text(const BenchReport& report) {
+  const Machine& machine = report.machine;
   Json json{{"version", report.settings.version},
             {"date", report.machine.date},
-            {"machine", machine_json(report.machine)},
+            {"machine",
+             {{"cpu", machine.cpu},
+              {"cores", machine.cores},
+              {"compiler", machine.compiler},
+              {"flags", machine.flags}}},
             {"threads", thread_count(report.settings.threads)},
             {"quick", report.settings.quick},
             {"suites", Json::array()},

@@ -12,14 +12,13 @@
 
 namespace abbe {
 
-/// All results of a benchmark.
 struct BenchReport {
   Machine machine;
   BenchSettings settings;
-  std::vector<SuiteRun> runs;  ///< Results of the suites, in the order in which they ran.
+  std::vector<SuiteRun> runs;
   /// Results of other renderers; empty for reduced films, which they did not render.
   std::vector<OtherRendererResult> other_renderers;
-  std::vector<Change> changes;  ///< Changes from the baseline; empty without one.
+  std::vector<Change> changes;  ///< Empty without a baseline.
 };
 
 /// CSV with one line per render; the first line names the columns.
@@ -28,13 +27,10 @@ struct BenchReport {
 /// One JSON object in one line with all digits of every number, as `load_baseline` reads it.
 [[nodiscard]] std::string json_text(const BenchReport& report);
 
-/// Report in plain text. Each suite lists its means over seeds, the ranking of its integrators and the times
-/// at the errors of other renderers. The changes from the baseline follow.
 [[nodiscard]] std::string readable_text(const BenchReport& report);
 
-/// Plot of relRMSE against CPU time [s] of one suite, with a curve per integrator and per other renderer.
-/// Errors with `kLowFloor` have dashed curves of their own, if another renderer has such a result for the
-/// suite.
+/// Plot of relRMSE against CPU time [s] with a curve per integrator and per other renderer. Errors with
+/// `kLowFloor` have dashed curves of their own, if another renderer has such a result for the suite.
 [[nodiscard]] LogPlot error_plot(const SuiteRun& run, std::span<const OtherRendererResult> other_renderers);
 
 /// Paths of the files that `write_report` would write for these suites: `bench.csv`, `bench.json`, then one

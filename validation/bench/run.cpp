@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -29,7 +28,7 @@ constexpr int kReferenceFactor = 64;
 
 int reference_samples(const BenchSettings& settings) {
   if (settings.reference_samples > 0) return settings.reference_samples;
-  return kReferenceFactor * *std::max_element(settings.samples.begin(), settings.samples.end());
+  return kReferenceFactor * *std::ranges::max_element(settings.samples);
 }
 
 BenchConditions conditions_of(const Scene& scene, const BenchSettings& settings) {
@@ -144,8 +143,8 @@ SuiteRun run_suite(const BenchSuite& suite, const BenchSettings& settings) {
 
 std::vector<BenchRow> rows_of(const std::vector<BenchRow>& rows, Integrator integrator) {
   std::vector<BenchRow> own;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(own),
-               [&](const BenchRow& row) { return row.integrator == integrator; });
+  std::ranges::copy_if(rows, std::back_inserter(own),
+                       [&](const BenchRow& row) { return row.integrator == integrator; });
   return own;
 }
 
@@ -159,8 +158,8 @@ std::vector<BenchRow> means_over_seeds(const std::vector<BenchRow>& rows) {
     const auto same = [&first](const BenchRow& row) {
       return row.integrator == first.integrator && row.samples == first.samples;
     };
-    if (std::any_of(means.begin(), means.end(), same)) continue;
-    const auto count = static_cast<double>(std::count_if(rows.begin(), rows.end(), same));
+    if (std::ranges::any_of(means, same)) continue;
+    const auto count = static_cast<double>(std::ranges::count_if(rows, same));
     BenchRow mean;
     mean.integrator = first.integrator;
     mean.samples = first.samples;

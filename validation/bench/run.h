@@ -25,28 +25,27 @@ struct BenchSettings {
   /// Integrators that render each suite, at least one. Other renderers are compared with the first.
   std::vector<Integrator> integrators{Integrator::automatic};
   std::vector<int> samples{4, 8, 16, 32, 64};  ///< Samples per pixel of the renders, ascending.
-  int seeds = 3;    ///< Renders per integrator and sample count, with seeds 1 to `seeds`.
-  int threads = 0;  ///< Number of threads; 0 for one per processor.
-  /// Samples per pixel of the reference; 0 for 64 times the largest of `samples`.
-  int reference_samples = 0;
+  int seeds = 3;                ///< Renders per integrator and sample count, with seeds 1 to `seeds`.
+  int threads = 0;              ///< 0 for one per processor.
+  int reference_samples = 0;    ///< Per pixel; 0 for 64 times the largest of `samples`.
   bool quick = false;           ///< Film edges divided by four.
   std::filesystem::path cache;  ///< Folder for reference images and generated meshes; created if needed.
-  std::string version;          ///< Version of Abbe, for reports and the keys of references.
+  std::string version;          ///< For reports and the keys of references.
   std::function<void(const std::string&)> say;  ///< Called with a message for each step, if set.
 };
 
 /// One render, compared with its reference. Errors are over linear sRGB with the reference's variance
-/// subtracted. They may be negative if the reference is not much better than the render.
+/// subtracted, and may be negative if the reference is not much better than the render.
 struct BenchRow {
   /// Requested integrator; `automatic` is not replaced by the one that the render chose.
   Integrator integrator = Integrator::automatic;
-  int samples = 0;  ///< Samples per pixel.
+  int samples = 0;
   std::uint64_t seed = 0;
   /// CPU time of all threads, from the loaded scene to the film; includes the choice of an integrator.
   double cpu_s = 0;
-  double wall_s = 0;        ///< Elapsed time of the same work.
-  std::uint64_t paths = 0;  ///< Number of paths, as `RenderStats` counts them.
-  std::uint64_t rays = 0;   ///< Number of rays, as `RenderStats` counts them.
+  double wall_s = 0;
+  std::uint64_t paths = 0;  ///< As `RenderStats` counts them, like `rays`.
+  std::uint64_t rays = 0;
   /// Fraction of the tracing time that Embree alone takes, as in `RenderStats`. The suite's first render
   /// measures it for all rows.
   double embree_replay_fraction = 0;
@@ -63,23 +62,22 @@ struct BenchRow {
 /// One of the integrators that render a suite.
 struct BenchIntegrator {
   Integrator integrator;
-  std::vector<PathClass> unsampled;  ///< Path classes of the suite that this integrator cannot sample.
-  std::string bias;                  ///< Bias as `bias_of` describes it; empty for an unbiased integrator.
+  std::vector<PathClass> unsampled;
+  std::string bias;  ///< As `bias_of` describes it; empty for an unbiased integrator.
 };
 
 /// Conditions that determine times and errors of a suite, besides the program, its tables and the machine.
 /// Runs with different conditions cannot be compared.
 struct BenchConditions {
-  int width, height;         ///< Size of the film in pixels.
+  int width, height;
   std::string scene_sha256;  ///< Hash of the scene with its settings and files.
-  int reference_samples;     ///< Samples per pixel of the reference.
-  int threads;               ///< Number of threads, never 0.
+  int reference_samples;
+  int threads;  ///< Never 0.
 };
 
-/// Loads the scene of a suite and returns its conditions. Throws the errors of `load_suite`.
+/// Loads the scene of a suite. Throws the errors of `load_suite`.
 [[nodiscard]] BenchConditions conditions_of(const BenchSuite& suite, const BenchSettings& settings);
 
-/// Results of one suite.
 struct SuiteRun {
   BenchSuite suite;
   BenchConditions conditions;
@@ -90,22 +88,20 @@ struct SuiteRun {
   std::vector<BenchRow> rows;
 };
 
-/// Renders a suite with every integrator at every sample count and seed. All renders are compared with one
-/// reference, which the suite's own integrator renders. Throws the errors of `load_suite`, `reference_of` and
+/// Renders a suite with every integrator at every sample count and seed, and compares with one reference,
+/// which the suite's own integrator renders. Throws the errors of `load_suite`, `reference_of` and
 /// `render`. Throws Error{internal} if the sensor has neither X, Y, Z nor R, G, B.
 [[nodiscard]] SuiteRun run_suite(const BenchSuite& suite, const BenchSettings& settings);
 
-/// Square root of an error; 0 for an error that noise has made negative.
+/// Square root; 0 for an error that noise has made negative.
 [[nodiscard]] double root_of(double mean_square);
 
-/// Rows of one integrator, in their order.
 [[nodiscard]] std::vector<BenchRow> rows_of(const std::vector<BenchRow>& rows, Integrator integrator);
 
 /// Means over the seeds of each integrator and sample count, in the order of their first rows. Paths and rays
 /// are those of the first seed; `seed` is 0.
 [[nodiscard]] std::vector<BenchRow> means_over_seeds(const std::vector<BenchRow>& rows);
 
-/// Cost of one integrator on a suite.
 struct RankingEntry {
   BenchIntegrator by;
   /// CPU time [s] times relMSE, both means over the seeds at the last sample count of the run. relMSE is
@@ -115,20 +111,19 @@ struct RankingEntry {
   double cost_trimmed;  ///< Cost with `rel_mse_trimmed` instead of relMSE.
 
   /// True for an unbiased integrator other than `automatic` that can sample all light paths of the suite.
-  /// Only such integrators can be the best of a ranking.
   [[nodiscard]] bool is_eligible() const;
 };
 
 /// Costs of a run's integrators, in the order of the run; integrators without rows are omitted.
 [[nodiscard]] std::vector<RankingEntry> ranking(const SuiteRun& run);
 
-/// Eligible entry of `all` with the smallest positive cost. `cost` selects `RankingEntry::cost` or
-/// `RankingEntry::cost_trimmed`. Null if there is none.
+/// Eligible entry with the smallest positive `cost`, one of the costs of `RankingEntry`; null if there is
+/// none.
 [[nodiscard]] const RankingEntry* best_single(std::span<const RankingEntry> all, double RankingEntry::*cost);
 
-/// Converts a film with channels X, Y, Z to linear sRGB (R, G, B) in the same scale, without chromatic
-/// adaptation. The channels R, G, B of a film that has R are copied. Other channels and metadata are omitted.
-/// Throws Error{internal} if neither set of channels is complete.
+/// Converts channels X, Y, Z to linear sRGB (R, G, B) in the same scale, without chromatic adaptation, or
+/// copies R, G, B. Other channels and metadata are omitted. Throws Error{internal} if neither set of
+/// channels is complete.
 [[nodiscard]] Image linear_srgb(const Image& film);
 
 /// Replaces the sensor's channels X, Y, Z by R, G, B of linear sRGB, so that the film records their
@@ -137,28 +132,25 @@ void expose_in_srgb(Scene& scene);
 
 /// Everything that a reference image depends on.
 struct ReferenceKey {
-  std::string scene_sha256;  ///< Hash of the scene with its settings and files.
-  int width, height;         ///< Size of the film in pixels.
-  std::string version;       ///< Version of Abbe.
-  std::string data_sha256;   ///< Hash of the shipped tables, by `data_sha256`.
+  std::string scene_sha256;
+  int width, height;
+  std::string version;
+  std::string data_sha256;
   std::uint64_t seed;
-  int samples;  ///< Samples per pixel.
+  int samples;
 
-  /// SHA-256 over all members, in hexadecimal.
   [[nodiscard]] std::string text() const;
 };
 
-/// Reference image of a scene.
 struct Reference {
   Image image;      ///< Channels R, G, B, Variance.R, Variance.G and Variance.B, in linear sRGB.
   std::string key;  ///< Text of its `ReferenceKey`.
   bool cached;      ///< True if the image was read from the cache.
 };
 
-/// Reference image of the scene with `samples` per pixel and the given seed, rendered by the scene's own
-/// integrator. It is read from the file of its key in the folder `cache`, or rendered and written there. The
-/// folder is created if needed. `version` is that of Abbe; `threads` of 0 means one per processor.
-/// Throws Error{output} if the file cannot be written, and the errors of `read_exr` and `render`.
+/// Reference image of the scene by its own integrator, from the file of its key in the folder `cache`, or
+/// rendered and written there. The folder is created if needed. Throws Error{output} if the file cannot be
+/// written, and the errors of `read_exr` and `render`.
 [[nodiscard]] Reference reference_of(const Scene& scene, const std::filesystem::path& cache,
                                      const std::string& version, std::uint64_t seed, int samples,
                                      int threads);

@@ -9,8 +9,7 @@ namespace abbe {
 
 /// Cost of a scene with a given number of one kind of item. CPU times are those of all threads.
 struct ScaleRow {
-  /// Kind of item: "triangles", "shapes" (spheres), "instances" (of a mesh of 7938 triangles), "lights" or
-  /// "channels".
+  /// "triangles", "shapes" (spheres), "instances" (of a mesh of 7938 triangles), "lights" or "channels".
   std::string subject;
   std::uint64_t count;  ///< Number of items requested; the triangles of a mesh may be slightly fewer.
   double load_cpu_s;    ///< CPU time for reading, checking and building the scene.
@@ -21,15 +20,14 @@ struct ScaleRow {
   double rays_per_cpu_s;  ///< Rays per second of CPU time of a render, without the plan.
 };
 
-/// Writes, loads and renders a scene for each subject and count. The counts grow by factors of 4 to 10;
-/// `quick` omits all but the first two. Rows are sorted by subject, then by count. Files are written to
-/// `folder`, which must exist. `threads` of 0 means one per processor. Throws Error{output} if a file cannot
-/// be written, and the errors of `render`.
+/// Writes to the existing `folder`, loads and renders a scene for each subject and count. `quick` omits all
+/// but the first two counts. Rows are sorted by subject, then by count. Throws Error{output} if a file
+/// cannot be written, and the errors of `render`.
 [[nodiscard]] std::vector<ScaleRow> measure_scale(const std::filesystem::path& folder, int threads,
                                                   bool quick);
 
-/// Exponent p of the growth figure ~ count^p between two rows of a subject with different counts. `figure`
-/// selects a member of `ScaleRow` that is positive in both.
+/// Exponent p of the growth figure ~ count^p between two rows of a subject with different counts; both
+/// figures must be positive.
 [[nodiscard]] double growth(const ScaleRow& before, const ScaleRow& after, double ScaleRow::*figure);
 
 /// Table of the rows in plain text. Each row shows the exponents by which load time and rays per second grew

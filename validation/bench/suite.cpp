@@ -132,13 +132,13 @@ std::vector<BenchSuite> choose_suites(const std::vector<std::string>& names) {
   std::vector<BenchSuite> chosen;
   const auto choose = [&chosen](const BenchSuite& suite) {
     const auto same = [&suite](const BenchSuite& other) { return suite.name == other.name; };
-    if (std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back(suite);
+    if (std::ranges::none_of(chosen, same)) chosen.push_back(suite);
   };
   for (const std::string& name : names) {
-    const auto found = std::find(known.begin(), known.end(), name);
+    const auto found = std::ranges::find(known, name);
     if (found == known.end()) throw Error(ErrorCode::usage, "", unknown_name("suite", name, known));
     if (found == known.begin())
-      std::for_each(bright_rooms().begin(), bright_rooms().end(), choose);
+      std::ranges::for_each(bright_rooms(), choose);
     else
       choose(all[static_cast<std::size_t>(found - known.begin()) - 1]);
   }

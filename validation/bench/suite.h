@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +10,10 @@ namespace abbe {
 
 /// A scene that is rendered against the clock.
 struct BenchSuite {
-  std::string name;         ///< Name on the command line, in reports and in `data/bench/rivals.csv`.
-  std::string description;  ///< Content of the scene, for reports.
-  std::string scene;        ///< Path of the scene relative to the data directory.
-  std::vector<Override> settings = {};  ///< Overrides applied to the scene.
+  std::string name;  ///< Name on the command line, in reports and in `data/bench/rivals.csv`.
+  std::string description;
+  std::string scene;  ///< Path relative to the data directory.
+  std::vector<Override> settings = {};
   /// Writes the meshes that the scene names to the folder of its copy, and throws Error{output} if it cannot.
   /// Null for a scene without generated meshes.
   void (*make_meshes)(const std::filesystem::path& folder) = nullptr;

@@ -28,22 +28,23 @@ struct Margin {
 
 /// A measured value and its known answer, in the unit of the case.
 struct Figure {
-  std::string what;  ///< Name of the figure within its case; empty if the case has a single one.
+  std::string what;  ///< Empty if the case has a single one.
   double reference;
-  Estimate measured;                  ///< The standard error is 0 for a value that is not sampled.
+  Estimate measured;
   std::optional<Margin> margin = {};  ///< Margin of this figure, if it differs from the case's.
 
-  /// Measured value minus reference.
   [[nodiscard]] double deviation() const { return measured.mean - reference; }
 };
 
+using Figures = std::vector<Figure>;
+
 /// Figures computed from formulas and tables, without rendering. `figures` may throw the errors of tables.
 struct Computed {
-  std::function<std::vector<Figure>()> figures;
+  std::function<Figures()> figures;
 };
 
-/// Value of a closed form, in the unit of the case. A form is evaluated at each call instead of at
-/// construction, since some take a tenth of a second. Numbers and functions without arguments convert to it.
+/// Value of a closed form, evaluated at each call, since some forms take a tenth of a second. Numbers and
+/// functions without arguments convert to it.
 class Expected {
  public:
   Expected(double value) : compute_([value] { return value; }) {}
@@ -58,12 +59,12 @@ class Expected {
 
 /// Mean of one channel of a rendered film, compared with a closed form.
 struct FilmMean {
-  std::string scene;               ///< Path relative to `data/scenes/validation`.
-  std::vector<Override> settings;  ///< Overrides applied to the scene.
-  std::string channel;             ///< Name of the film's channel.
-  Expected expected;               ///< Mean of the channel over all pixels.
-  int samples;                     ///< Samples per pixel for the margin of the case.
-  double fine_margin;              ///< Margin of a thorough run, as a fraction of the expected mean.
+  std::string scene;  ///< Path relative to `data/scenes/validation`.
+  std::vector<Override> settings;
+  std::string channel;
+  Expected expected;   ///< Mean of the channel over all pixels.
+  int samples;         ///< Samples per pixel for the margin of the case.
+  double fine_margin;  ///< Margin of a thorough run, as a fraction of the expected mean.
   /// Path classes that contribute nothing to this film, as the expressions before the colon of
   /// `unsampled_paths`, such as "E L". An integrator may omit them.
   std::vector<std::string> absent = {};
@@ -79,7 +80,7 @@ enum class Tier {
 
 /// Mean of another case's film, rendered by one integrator: a cell of the table in `docs/reference/integrators.md`.
 struct TechniqueMean {
-  std::string case_id;  ///< Id of the other case.
+  std::string case_id;
   Integrator integrator;
   FilmMean film;  ///< Film of the other case; `integrator` replaces the one of its settings.
   Tier tier;
@@ -93,9 +94,7 @@ struct RenderedChart {
   double mean_margin;      ///< Margin of the mean [ΔE2000]; the case's margin applies to each patch.
 };
 
-/// Part of the report.
 enum class Suite { optics, radiometry, colour, camera, sensor, techniques };
-/// Names of the suites, in the order of the enumeration.
 inline constexpr std::array kSuiteNames{"optics", "radiometry", "colour", "camera", "sensor", "techniques"};
 
 /// A quantity whose answer is known.
@@ -109,10 +108,9 @@ struct Case {
   std::variant<Computed, FilmMean, RenderedChart, TechniqueMean> method;
 };
 
-/// Accuracy and threads of a measurement.
 struct CaseSettings {
   bool thorough = false;  ///< Render films at their fine margins, with accordingly more samples.
-  int threads = 0;        ///< Number of threads; 0 for one per processor.
+  int threads = 0;        ///< 0 for one per processor.
 };
 
 /// A value that is reported without a verdict.
@@ -121,11 +119,10 @@ struct Remark {
   double value;
 };
 
-/// Result of measuring a case.
 struct CaseResult {
   /// Figures of the case: those of `Computed`, one for a film, the mean and then the patches for a chart.
   /// Empty if nothing was measured.
-  std::vector<Figure> figures;
+  Figures figures;
   Margin margin;      ///< Margin of this run, for figures without their own.
   Verdict verdict;    ///< `pass` if all figures pass; otherwise the verdict of one that does not pass.
   std::size_t worst;  ///< Index of the figure with the largest deviation in units of its margin.
@@ -137,8 +134,8 @@ struct CaseResult {
   std::vector<PathClass> unsampled = {};
   /// Path classes that each technique of a `TechniqueMean` samples, one text per technique.
   std::vector<std::string> owned = {};
-  /// Picture with code values in [0, 1]. For a chart it is the developed film. For a film that is not uniform
-  /// it is a false-colour map from 0 to twice the expected mean.
+  /// Picture with code values in [0, 1]: the developed chart, or for a film that is not uniform a false-
+  /// colour map from 0 to twice the expected mean.
   std::optional<Image> picture = {};
 
   /// Largest absolute deviation with which this figure passes, in the unit of the case.
@@ -146,29 +143,27 @@ struct CaseResult {
     return figure.margin.value_or(margin).of(figure.reference);
   }
 
-  /// False if the integrator cannot sample the film's light.
   [[nodiscard]] bool measured() const { return unsampled.empty(); }
   [[nodiscard]] bool passed() const { return verdict == Verdict::pass; }
 };
 
-/// Scene, channel and expected mean of a case that renders a film.
+/// Scene with the samples of a case, index and expected mean of its channel.
 struct FilmSetup {
-  Scene scene;      ///< Its samples per pixel are those of the case.
-  int channel;      ///< Index of the film's channel.
-  double expected;  ///< Expected mean of that channel.
+  Scene scene;
+  int channel;
+  double expected;
 };
 /// Scene and expected mean of a case measured by `FilmMean` or `TechniqueMean`. Throws Error{internal} for
 /// other methods, for an unknown channel, and if the scene does not load.
 [[nodiscard]] FilmSetup film_of(const Case& item);
 
 /// Measures one case. A `TechniqueMean` whose integrator cannot sample the film's light passes without a
-/// measurement. The samples of a film are doubled up to 4 times while the verdict is inconclusive.
-/// Throws Error{internal} if a scene does not load. Also throws Error{input} for a missing table, and the
-/// errors of `render`.
+/// measurement. The samples of a film are doubled up to 4 times while the verdict is inconclusive. Throws
+/// Error{internal} if a scene does not load, Error{input} for a missing table, and the errors of `render`.
 [[nodiscard]] CaseResult run_case(const Case& item, const CaseSettings& settings = {});
 
-/// All cases, sorted by suite. The first call builds them from shipped tables and throws Error{input} if one
-/// is missing.
+/// All cases, sorted by suite. The first call builds them and throws Error{input} if a shipped table is
+/// missing.
 [[nodiscard]] const std::vector<Case>& all_cases();
 
 /// A topic that a validation should cover and Abbe's does not.
@@ -177,7 +172,7 @@ struct Uncovered {
   std::string what;
   std::string reason;
 };
-/// All topics that are not covered, sorted by suite.
+/// All topics, sorted by suite.
 [[nodiscard]] const std::vector<Uncovered>& uncovered();
 
 }  // namespace abbe

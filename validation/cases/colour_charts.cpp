@@ -22,7 +22,6 @@ namespace abbe {
 namespace {
 
 // Colours of a chart's patches for the CIE 1931 observer, with Y = 100 for the perfect diffuser.
-// All three lists have one entry per patch, in the order of the chart.
 struct ChartColors {
   std::vector<std::string> names;
   std::vector<XYZ> xyz;
@@ -36,9 +35,7 @@ struct ChartDifference {
   double max = 0;
 };
 
-// Integrates the colours of a chart in steps of 1 nm over a range, by default 360 to 830 nm. `spectra` names
-// a shipped chart of reflectances, `illuminant` a shipped illuminant. Throws Error{input} for an unknown
-// name.
+// Sums over a shipped chart and illuminant in steps of 1 nm, by default from 360 to 830 nm.
 ChartColors chart_colors(const std::string& spectra, const std::string& illuminant, SumRange range = {}) {
   const Curve light = shipped_illuminant(illuminant);
   const XYZ white = tristimulus(light, Curve(1), Observer::cie1931, range);
@@ -62,14 +59,12 @@ ChartDifference difference_of(const std::vector<Lab>& reference, const std::vect
     difference.patches.push_back(delta_e_2000(reference[i], sample[i]));
   difference.mean = std::accumulate(difference.patches.begin(), difference.patches.end(), 0.0) /
                     static_cast<double>(sample.size());
-  difference.max = *std::max_element(difference.patches.begin(), difference.patches.end());
+  difference.max = *std::ranges::max_element(difference.patches);
   return difference;
 }
 
-// L*a*b* of the patches of an edition of the ColorChecker under D50, in the order of its table. `edition` is
-// the name of a table in `data/reflectance` without "colorchecker24_", such as "after_nov2014". The values
-// are integrated if the edition has spectra, and as published otherwise. Throws Error{input} for an unknown
-// edition.
+// L*a*b* of the patches under D50. `edition` is the name of a table without "colorchecker24_", such as
+// "after_nov2014". Editions without spectra have their published values.
 std::vector<Lab> edition_lab(const std::string& edition) {
   const std::string stem = "colorchecker24_" + edition;
   Diagnostics diagnostics;
@@ -98,64 +93,47 @@ constexpr std::array<IntegratedTable, 2> kTables{
      {"colorchecker_ohta_iso17321_2deg", "colorchecker24_ohta1997"}}};
 
 // X, Y, Z, L*, a*, b* of every patch under every illuminant of a reference table.
-std::vector<Figure> patches_of(const IntegratedTable& chart, SumRange range) {
-  const ReferenceTable table(chart.reference);
+Figures patches_of(const IntegratedTable& chart, SumRange range) {
   std::map<std::string, ChartColors> integrated;
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string& light = table.text(row, "illuminant");
+  return figures_of_rows(chart.reference, [&](Figures& figures, const ReferenceRow& row) {
+    const std::string& light = row.text("illuminant");
     if (!integrated.contains(light)) integrated[light] = chart_colors(chart.spectra, light, range);
     const ChartColors& colors = integrated[light];
-    const auto patch = static_cast<std::size_t>(table.number(row, "index")) - 1;
-    const std::string what = light + " " + table.text(row, "patch") + " ";
+    const auto patch = static_cast<std::size_t>(row.number("index")) - 1;
+    const std::string what = light + " " + row.text("patch") + " ";
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string xyz(1, "XYZ"[i]);
       const std::string lab(1, "Lab"[i]);
-      figures.push_back(exact_figure(what + xyz, table.number(row, xyz), colors.xyz.at(patch)[i]));
-      figures.push_back(exact_figure(what + lab, table.number(row, lab), colors.lab.at(patch)[i]));
+      figures.push_back({what + xyz, row.number(xyz), {colors.xyz.at(patch)[i]}});
+      figures.push_back({what + lab, row.number(lab), {colors.lab.at(patch)[i]}});
     }
-  }
-  return figures;
+  });
 }
-std::vector<Figure> babelcolor_patches() {
-  return patches_of(kTables[0], kVisibleRange);
-}
-std::vector<Figure> ohta_patches() {
-  return patches_of(kTables[1], kVisibleRange);
-}
-std::vector<Figure> whole_range_patches() {
-  return patches_of({"colorchecker_babelcolor_360_830", kTables[0].spectra}, {});
-}
-
 // L*a*b* of every patch by the weights of ASTM E308. Another program computed the reference from the same
 // tables.
-std::vector<Figure> astm_patches() {
-  const ReferenceTable table(kTables[0].reference);
+Figures astm_patches() {
   std::map<std::string, TristimulusWeights> weights;
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string& light = table.text(row, "illuminant");
+  return figures_of_rows(kTables[0].reference, [&](Figures& figures, const ReferenceRow& row) {
+    const std::string& light = row.text("illuminant");
     if (light.starts_with("FL"))
-      continue;  // that program extrapolates their first value below 380 nm as a constant
+      return;  // that program extrapolates their first value below 380 nm as a constant
     if (!weights.contains(light))
       weights[light] = astm_weights(shipped_illuminant(light), Observer::cie1931, 10);
     Diagnostics diagnostics;
-    const std::string& patch = table.text(row, "patch");
+    const std::string& patch = row.text("patch");
     const Samples samples = shipped(
         load_astm_samples(std::string(kTables[0].spectra) + ":" + patch, {}, diagnostics), diagnostics);
     const Lab lab = xyz_to_lab(astm_tristimulus(weights[light], samples), astm_white(weights[light]));
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string name(1, "Lab"[i]);
-      figures.push_back(
-          exact_figure(light + " " + patch + " " + name, table.number(row, name + "_E308"), lab[i]));
+      figures.push_back({light + " " + patch + " " + name, row.number(name + "_E308"), {lab[i]}});
     }
-  }
-  return figures;
+  });
 }
 
 // Mean CIEDE2000 between the integrated patches and the reference, for each table and illuminant.
-std::vector<Figure> integrated_differences() {
-  std::vector<Figure> figures;
+Figures integrated_differences() {
+  Figures figures;
   for (const IntegratedTable& chart : kTables) {
     const ReferenceTable table(chart.reference);
     std::map<std::string, std::vector<Lab>> known;
@@ -163,27 +141,27 @@ std::vector<Figure> integrated_differences() {
       known[table.text(row, "illuminant")].push_back(
           {table.number(row, "L"), table.number(row, "a"), table.number(row, "b")});
     for (const auto& [light, labs] : known)
-      figures.push_back(
-          exact_figure(fmt::format("{} {}", chart.spectra, light), 0,
-                       difference_of(labs, chart_colors(chart.spectra, light, kVisibleRange).lab).mean));
+      figures.push_back({fmt::format("{} {}", chart.spectra, light),
+                         0,
+                         {difference_of(labs, chart_colors(chart.spectra, light, kVisibleRange).lab).mean}});
   }
   return figures;
 }
 
 // Differences between editions under D50: the uncertainty of the chart itself.
-std::vector<Figure> edition_spread() {
+Figures edition_spread() {
   struct Pair {
     const char *first, *second;
     double mean, max;
   };
   constexpr std::array<Pair, 2> kPairs{{{"before_nov2014", "after_nov2014", 0.848, 1.951},
                                         {"2005_xyY", "babelcolor_average_xyY", 0.489, 1.128}}};
-  std::vector<Figure> figures;
+  Figures figures;
   for (const Pair& pair : kPairs) {
     const ChartDifference d = difference_of(edition_lab(pair.first), edition_lab(pair.second));
     const std::string what = fmt::format("{} / {}", pair.first, pair.second);
-    figures.push_back(exact_figure(what + " mean", pair.mean, d.mean));
-    figures.push_back(exact_figure(what + " max", pair.max, d.max));
+    figures.push_back({what + " mean", pair.mean, {d.mean}});
+    figures.push_back({what + " max", pair.max, {d.max}});
   }
   return figures;
 }
@@ -226,26 +204,37 @@ std::vector<Remark> editions(const std::vector<Lab>& rendered, const std::string
 }  // namespace
 
 std::vector<Case> chart_cases() {
-  const auto computed = [](std::string id, std::string title, std::string source, Margin margin,
-                           std::vector<Figure> (*figures)()) {
-    return computed_case(Suite::colour, std::move(id), std::move(title), std::move(source), "", margin,
-                         figures);
-  };
-  return {
+  const ComputedCases computed{Suite::colour};
+  std::vector<Case> cases{
       computed("chart-patches", "ColorChecker, mean of 30 charts: XYZ and L*a*b* of each patch",
-               "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", {1e-5}, whole_range_patches),
+               "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", "", {1e-5},
+               [] {
+                 return patches_of({"colorchecker_babelcolor_360_830", kTables[0].spectra}, {});
+               }),
       computed("chart-babelcolor",
                "ColorChecker, mean of 30 charts, summed from 380 to 780 nm: XYZ and L*a*b* of each patch",
-               "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", {1e-5}, babelcolor_patches),
+               "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", "", {1e-5},
+               [] { return patches_of(kTables[0], kVisibleRange); }),
       computed("chart-ohta", "ColorChecker of Ohta, summed from 380 to 780 nm: XYZ and L*a*b* of each patch",
-               "spectra of [Ohta1997], 1 nm sums [CIE15, sec. 7.1]", {1e-5}, ohta_patches),
+               "spectra of [Ohta1997], 1 nm sums [CIE15, sec. 7.1]", "", {1e-5},
+               [] { return patches_of(kTables[1], kVisibleRange); }),
       computed("chart-astm", "ColorChecker by the weights of ASTM E308: L*a*b* of each patch",
-               "spectra of [Pascale2012], [ASTM308]", {1e-5}, astm_patches),
+               "spectra of [Pascale2012], [ASTM308]", "", {1e-5}, astm_patches),
       computed("chart-integrated", "ColorChecker integrated against the same spectra: mean ΔE2000",
-               "[Pascale2012], [Ohta1997], [CIE15, sec. 7.1]", {0.001}, integrated_differences),
+               "[Pascale2012], [Ohta1997], [CIE15, sec. 7.1]", "", {0.001}, integrated_differences),
       computed("chart-editions", "editions of the ColorChecker against each other, D50: ΔE2000",
-               "tables of [XRite2016] and [Pascale2012]", {0.001}, edition_spread),
+               "tables of [XRite2016] and [Pascale2012]", "", {0.001}, edition_spread),
   };
+  constexpr int kSamples = 512;
+  for (const char* illuminant : {"A", "D50", "D65", "FL2", "FL11", "LED-B1"})
+    cases.push_back({Suite::colour,
+                     fmt::format("chart-{}", illuminant),
+                     fmt::format("ColorChecker rendered under {}: ΔE2000 to its own spectra", illuminant),
+                     "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]",
+                     "ΔE",
+                     {0.15},
+                     RenderedChart{illuminant, kSamples, 0.05}});
+  return cases;
 }
 
 CaseResult measure(const Case& item, const RenderedChart& method, const CaseSettings& settings) {
@@ -267,20 +256,6 @@ CaseResult measure(const Case& item, const RenderedChart& method, const CaseSett
   result.remarks = editions(labs, method.illuminant);
   result.picture = make_display(scene.channels, light)(film, 1 / kWhite).image;
   return result;
-}
-
-std::vector<Case> rendered_chart_cases() {
-  constexpr int kSamples = 512;
-  std::vector<Case> cases;
-  for (const char* illuminant : {"A", "D50", "D65", "FL2", "FL11", "LED-B1"})
-    cases.push_back({Suite::colour,
-                     fmt::format("chart-{}", illuminant),
-                     fmt::format("ColorChecker rendered under {}: ΔE2000 to its own spectra", illuminant),
-                     "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]",
-                     "ΔE",
-                     {0.15},
-                     RenderedChart{illuminant, kSamples, 0.05}});
-  return cases;
 }
 
 }  // namespace abbe

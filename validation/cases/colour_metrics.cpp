@@ -19,113 +19,68 @@ ColorTemperature temperature_of(const Curve& light, SumRange range = {}) {
   return color_temperature(tristimulus(light, Curve(1), Observer::cie1931, range)).value();
 }
 
-// One figure for each illuminant that has a value in the column.
-template <typename F>
-std::vector<Figure> of_illuminants(const char* table_name, const char* column, F figure) {
-  const ReferenceTable table(table_name);
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row)
-    if (!table.text(row, column).empty())
-      figures.push_back(exact_figure(table.text(row, "illuminant"), table.number(row, column),
-                                     figure(shipped_illuminant(table.text(row, "illuminant")))));
-  return figures;
+// Computes a figure for each illuminant that has a value in the column.
+std::function<Figures()> of_illuminants(const char* table_name, const char* column,
+                                        double (*figure)(const Curve&)) {
+  return [=] {
+    return figures_of_rows(table_name, [&](Figures& figures, const ReferenceRow& row) {
+      if (const std::string& name = row.text("illuminant"); !row.text(column).empty())
+        figures.push_back({name, row.number(column), {figure(shipped_illuminant(name))}});
+    });
+  };
 }
 
 constexpr const char* kComputed = "illuminant_cct_ler";
 constexpr const char* kPrinted = "illuminant_rendering";
 
-std::vector<Figure> temperatures() {
-  return of_illuminants(kComputed, "CCT_K_360_830", [](const Curve& c) { return temperature_of(c).kelvin; });
-}
-std::vector<Figure> truncated_temperatures() {
-  return of_illuminants(kComputed, "CCT_K",
-                        [](const Curve& c) { return temperature_of(c, kVisibleRange).kelvin; });
-}
-std::vector<Figure> locus_distances() {
-  return of_illuminants(kComputed, "Duv_360_830", [](const Curve& c) { return temperature_of(c).duv; });
-}
-std::vector<Figure> truncated_locus_distances() {
-  return of_illuminants(kComputed, "Duv",
-                        [](const Curve& c) { return temperature_of(c, kVisibleRange).duv; });
-}
-std::vector<Figure> scotopic_ratios() {
-  return of_illuminants(kComputed, "S_over_P_360_830",
-                        [](const Curve& c) { return scotopic_photopic_ratio(c); });
-}
-std::vector<Figure> truncated_scotopic_ratios() {
-  return of_illuminants(kComputed, "S_over_P",
-                        [](const Curve& c) { return scotopic_photopic_ratio(c, kVisibleRange); });
-}
-
 // Black bodies have their own temperatures.
-std::vector<Figure> black_body_temperatures() {
-  std::vector<Figure> figures;
+Figures black_body_temperatures() {
+  Figures figures;
   for (const double kelvin : {1500.0, 2856.0, 6500.0, 20000.0, 50000.0, 99000.0})
-    figures.push_back(
-        exact_figure(fmt::format("{} K", kelvin), kelvin, temperature_of(planck(kelvin)).kelvin));
+    figures.push_back({fmt::format("{} K", kelvin), kelvin, {temperature_of(planck(kelvin)).kelvin}});
   return figures;
-}
-std::vector<Figure> printed_temperatures() {
-  return of_illuminants(kPrinted, "CCT_K", [](const Curve& c) { return temperature_of(c).kelvin; });
-}
-
-double general_index(const Curve& light) {
-  return color_rendering(light).value().general;
-}
-std::vector<Figure> rendering_indices() {
-  return of_illuminants(kComputed, "Ra",
-                        [](const Curve& c) { return color_rendering(c, kVisibleRange).value().general; });
-}
-std::vector<Figure> printed_indices() {
-  return of_illuminants(kPrinted, "Ra", general_index);
-}
-std::vector<Figure> fidelities() {
-  return of_illuminants(kComputed, "Rf",
-                        [](const Curve& c) { return color_fidelity(c, kVisibleRange).value().fidelity; });
 }
 
 // The worked example of CIE 224 and FL1 are tabulated every 5 nm. The calculator sums every 5 nm; Sprague's
 // rule agrees with it. One sample under FL3.9 is so near the end of the twelfth hue bin that its bin depends
 // on the steps of the table of samples.
-std::vector<Figure> fidelity_example() {
+Figures fidelity_example() {
   Diagnostics diagnostics;
   const ColorFidelity example = color_fidelity(shipped_curve("reference", "cie224_example_lamp")).value();
   const ReferenceTable table("cie224_example_Rs");
-  std::vector<Figure> figures{exact_figure("Rf", 81.6, example.fidelity)};
+  Figures figures{{"Rf", 81.6, {example.fidelity}}};
   for (std::size_t i = 0; i < table.rows(); ++i)
-    figures.push_back(exact_figure(table.text(i, "sample"), table.number(i, "Rs"), example.samples.at(i)));
+    figures.push_back({table.text(i, "sample"), table.number(i, "Rs"), {example.samples.at(i)}});
   const Samples fl1 = shipped(load_samples("illuminant", "FL1", {}, diagnostics), diagnostics).samples;
   const Samples fine =
       every_nanometre(fl1, Interpolation::sprague, 0, std::numeric_limits<double>::infinity());
   const Curve interpolated = table_curve(fine.wavelengths_nm, fine.values, Outside::zero);
-  figures.push_back(exact_figure("FL1 Rf", 80.6, color_fidelity(interpolated).value().fidelity));
-  figures.push_back(exact_figure("FL3.9 Rf,h12", 71.5,
-                                 color_fidelity(shipped_illuminant("FL3.9")).value().bins[11].fidelity));
+  figures.push_back({"FL1 Rf", 80.6, {color_fidelity(interpolated).value().fidelity}});
+  figures.push_back(
+      {"FL3.9 Rf,h12", 71.5, {color_fidelity(shipped_illuminant("FL3.9")).value().bins[11].fidelity}});
   return figures;
 }
 
-std::vector<Figure> special_indices() {
+Figures special_indices() {
   const ReferenceTable table("cri_fl1");
   const ColorRendering rendering = color_rendering(shipped_illuminant("FL1")).value();
-  std::vector<Figure> figures;
+  Figures figures;
   for (std::size_t i = 0; i < rendering.special.size(); ++i)
-    figures.push_back(exact_figure(fmt::format("R{}", i + 1), table.number(i, "R"), rendering.special[i]));
+    figures.push_back({fmt::format("R{}", i + 1), table.number(i, "R"), {rendering.special[i]}});
   return figures;
 }
 
-std::vector<Figure> printed_fidelity() {
+Figures printed_fidelity() {
   const ColorFidelity fl2 = color_fidelity(shipped_illuminant("FL2")).value();
-  std::vector<Figure> figures{exact_figure("Rf", 70, fl2.fidelity), exact_figure("Rg", 86, fl2.gamut)};
+  Figures figures{{"Rf", 70, {fl2.fidelity}}, {"Rg", 86, {fl2.gamut}}};
   const ReferenceTable samples("tm30_fl2_samples");
   for (std::size_t i = 0; i < samples.rows(); ++i)
-    figures.push_back(
-        exact_figure(fmt::format("CES{:02}", i + 1), samples.number(i, "Rf"), fl2.samples.at(i)));
+    figures.push_back({fmt::format("CES{:02}", i + 1), samples.number(i, "Rf"), {fl2.samples.at(i)}});
   const ReferenceTable bins("tm30_fl2_bins");
   for (std::size_t i = 0; i < bins.rows(); ++i) {
     const HueBin& bin = fl2.bins.at(i);
     const auto add = [&](const char* what, const char* column, double measured) {
-      figures.push_back(
-          exact_figure(fmt::format("{} of bin {}", what, i + 1), bins.number(i, column), measured));
+      figures.push_back({fmt::format("{} of bin {}", what, i + 1), bins.number(i, column), {measured}});
     };
     add("Rf", "Rf_h", bin.fidelity);
     add("Rcs [%]", "Rcs_h_percent", 100 * bin.chroma_shift);
@@ -133,104 +88,103 @@ std::vector<Figure> printed_fidelity() {
   return figures;
 }
 
-std::vector<Figure> printed_hue_shifts() {
+Figures printed_hue_shifts() {
   const ColorFidelity fl2 = color_fidelity(shipped_illuminant("FL2")).value();
   const ReferenceTable bins("tm30_fl2_bins");
-  std::vector<Figure> figures;
+  Figures figures;
   for (std::size_t i = 0; i < bins.rows(); ++i)
     figures.push_back(
-        exact_figure(fmt::format("bin {}", i + 1), bins.number(i, "Rhs_h_rad"), fl2.bins.at(i).hue_shift));
+        {fmt::format("bin {}", i + 1), bins.number(i, "Rhs_h_rad"), {fl2.bins.at(i).hue_shift}});
   return figures;
 }
 
-std::vector<Figure> correlates(const char* table_name, AppearanceModel model) {
-  const ReferenceTable table(table_name);
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const auto number = [&](const char* column) { return table.number(row, column); };
+Figures correlates(const char* table_name, AppearanceModel model) {
+  return figures_of_rows(table_name, [&](Figures& figures, const ReferenceRow& row) {
+    const auto number = [&](const char* column) { return row.number(column); };
     const Appearance appearance(
         model, {{number("Xw"), number("Yw"), number("Zw")}, number("L_A"), number("Y_b"), false});
     const ColorAppearance result = appearance(XYZ{number("X"), number("Y"), number("Z")});
     const auto add = [&](const char* what, double measured) {
-      figures.push_back(exact_figure(fmt::format("{} of colour {}", what, row + 1), number(what), measured));
+      figures.push_back({fmt::format("{} of colour {}", what, row.index + 1), number(what), {measured}});
     };
     add("J", result.lightness);
     add("C", result.chroma);
     add("h", result.hue_deg);
     add("M", result.colorfulness);
-  }
-  return figures;
-}
-std::vector<Figure> cam16_correlates() {
-  return correlates("cam16", AppearanceModel::cam16);
-}
-std::vector<Figure> ciecam02_correlates() {
-  return correlates("ciecam02", AppearanceModel::ciecam02);
+  });
 }
 
-std::vector<Figure> printed_itp() {
-  const ReferenceTable table("delta_e_itp");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
+Figures printed_itp() {
+  return figures_of_rows("delta_e_itp", [&](Figures& figures, const ReferenceRow& row) {
     const auto color = [&](const char* of) {
-      const auto number = [&](const char* part) { return table.number(row, std::string(part) + of); };
+      const auto number = [&](const char* part) { return row.number(std::string(part) + of); };
       return std::array<double, 3>{number("I"), number("Ct") / 2, number("Cp")};
     };
-    figures.push_back(exact_figure(table.text(row, "color"), table.number(row, "dE_ITP"),
-                                   delta_e_itp(color("1"), color("2"))));
-  }
-  return figures;
+    figures.push_back({row.text("color"), row.number("dE_ITP"), {delta_e_itp(color("1"), color("2"))}});
+  });
 }
 
-std::vector<Figure> display_itp() {
-  const ReferenceTable table("itp_srgb");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
+Figures display_itp() {
+  return figures_of_rows("itp_srgb", [&](Figures& figures, const ReferenceRow& row) {
     const auto color = [&](const char* of) {
       const auto number = [&](const char* part) {
-        return kReferenceWhite * table.number(row, std::string(part) + of);
+        return kReferenceWhite * row.number(std::string(part) + of);
       };
       return itp(multiply(rgb_to_xyz(kRec709), {number("R"), number("G"), number("B")}));
     };
-    figures.push_back(exact_figure(table.text(row, "color"), table.number(row, "dE_ITP"),
-                                   delta_e_itp(color("1"), color("2"))));
-  }
-  return figures;
+    figures.push_back({row.text("color"), row.number("dE_ITP"), {delta_e_itp(color("1"), color("2"))}});
+  });
 }
 
 }  // namespace
 
 std::vector<Case> color_metric_cases() {
-  const auto computed = [](std::string id, std::string title, std::string source, std::string unit,
-                           Margin margin, std::vector<Figure> (*figures)()) {
-    return computed_case(Suite::colour, std::move(id), std::move(title), std::move(source), std::move(unit),
-                         margin, figures);
-  };
+  const ComputedCases computed{Suite::colour};
   return {
       computed("cct", "correlated colour temperature of illuminants", "nearest black body [Ohno2014]", "K",
-               {0.0051}, temperatures),
+               {0.0051},
+               of_illuminants(kComputed, "CCT_K_360_830",
+                              [](const Curve& c) { return temperature_of(c).kelvin; })),
       computed("cct-truncated", "correlated colour temperature of colours summed from 380 to 780 nm",
-               "nearest black body [Ohno2014]", "K", {0.0051}, truncated_temperatures),
+               "nearest black body [Ohno2014]", "K", {0.0051},
+               of_illuminants(kComputed, "CCT_K",
+                              [](const Curve& c) { return temperature_of(c, kVisibleRange).kelvin; })),
       computed("cct-black-body", "colour temperature of black bodies",
                "temperature of the black body itself [Planck1901]", "K", {1e-5, Margin::Kind::relative},
                black_body_temperatures),
-      computed("duv", "distance of illuminants from the Planckian locus", "nearest black body [Ohno2014]", "",
-               {5.1e-7}, locus_distances),
+      computed(
+          "duv", "distance of illuminants from the Planckian locus", "nearest black body [Ohno2014]", "",
+          {5.1e-7},
+          of_illuminants(kComputed, "Duv_360_830", [](const Curve& c) { return temperature_of(c).duv; })),
       computed("duv-truncated", "distance from the Planckian locus of colours summed from 380 to 780 nm",
-               "nearest black body [Ohno2014]", "", {5.1e-7}, truncated_locus_distances),
+               "nearest black body [Ohno2014]", "", {5.1e-7},
+               of_illuminants(kComputed, "Duv",
+                              [](const Curve& c) { return temperature_of(c, kVisibleRange).duv; })),
       computed("cct-printed", "colour temperatures as printed, to 10 K and from 5 nm sums",
-               "[CIE15, tables 10 and 12]", "K", {1.6e-3, Margin::Kind::relative}, printed_temperatures),
-      computed("scotopic", "ratio of scotopic to photopic flux", "[CIE18]", "", {6e-6}, scotopic_ratios),
+               "[CIE15, tables 10 and 12]", "K", {1.6e-3, Margin::Kind::relative},
+               of_illuminants(kPrinted, "CCT_K", [](const Curve& c) { return temperature_of(c).kelvin; })),
+      computed("scotopic", "ratio of scotopic to photopic flux", "[CIE18]", "", {6e-6},
+               of_illuminants(kComputed, "S_over_P_360_830",
+                              [](const Curve& c) { return scotopic_photopic_ratio(c); })),
       computed("scotopic-truncated", "ratio of scotopic to photopic flux, summed from 380 to 780 nm",
-               "[CIE18]", "", {6e-6}, truncated_scotopic_ratios),
-      computed("cri", "general colour rendering index; the reference interpolates spectra by Sprague's rule",
-               "[CIE13]", "", {0.1}, rendering_indices),
+               "[CIE18]", "", {6e-6},
+               of_illuminants(kComputed, "S_over_P",
+                              [](const Curve& c) { return scotopic_photopic_ratio(c, kVisibleRange); })),
+      computed(
+          "cri", "general colour rendering index; the reference interpolates spectra by Sprague's rule",
+          "[CIE13]", "", {0.1},
+          of_illuminants(kComputed, "Ra",
+                         [](const Curve& c) { return color_rendering(c, kVisibleRange).value().general; })),
       computed("cri-special", "R1 to R14 of FL1; the reference interpolates spectra by Sprague's rule",
                "[CIE13]", "", {0.3}, special_indices),
-      computed("cri-printed", "general colour rendering index as printed, in integers and from 5 nm sums",
-               "[CIE15, table T.8]", "", {0.56}, printed_indices),
-      computed("fidelity", "colour fidelity; the reference uses 5 nm sums", "[CIE224]", "", {0.17},
-               fidelities),
+      computed(
+          "cri-printed", "general colour rendering index as printed, in integers and from 5 nm sums",
+          "[CIE15, table T.8]", "", {0.56},
+          of_illuminants(kPrinted, "Ra", [](const Curve& c) { return color_rendering(c).value().general; })),
+      computed(
+          "fidelity", "colour fidelity; the reference uses 5 nm sums", "[CIE224]", "", {0.17},
+          of_illuminants(kComputed, "Rf",
+                         [](const Curve& c) { return color_fidelity(c, kVisibleRange).value().fidelity; })),
       computed("fidelity-example",
                "the worked example of CIE 224 and two fluorescent illuminants, as printed to 0.1", "[CIE224]",
                "", {0.07}, fidelity_example),
@@ -238,9 +192,10 @@ std::vector<Case> color_metric_cases() {
                printed_fidelity),
       computed("tm30-hue", "hue shifts of FL2 by that calculator", "[TM30]", "rad", {6e-3},
                printed_hue_shifts),
-      computed("cam16", "correlates of CAM16", "[Li2017]", "", {5.1e-9}, cam16_correlates),
+      computed("cam16", "correlates of CAM16", "[Li2017]", "", {5.1e-9},
+               [] { return correlates("cam16", AppearanceModel::cam16); }),
       computed("ciecam02", "correlates of CIECAM02 as printed", "[CIE159]; [Fairchild2013]", "", {0.06},
-               ciecam02_correlates),
+               [] { return correlates("ciecam02", AppearanceModel::ciecam02); }),
       computed("dE-ITP", "colour differences for displays as printed", "[BT2124]", "ΔE", {1e-7}, printed_itp),
       computed("itp", "colour differences of sRGB primaries for displays with a white of 203 cd/m²",
                "[BT2100]; [BT2124]", "ΔE", {5.1e-4}, display_itp),

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "io/table.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/snell.h"
 #include "sampling/angle.h"
@@ -25,56 +24,55 @@ double cosine(double degrees) {
   return degrees == 90 ? 0 : std::cos(degrees * kDegree);
 }
 
-std::vector<Figure> spectral_lines() {
-  constexpr std::array<std::pair<const char*, double>, 10> kLines{{{"h", kLineH_nm},
-                                                                   {"g", kLineG_nm},
-                                                                   {"Fprime", 479.9914},
-                                                                   {"F", kLineF_nm},
-                                                                   {"e", 546.0740},
-                                                                   {"d", kLineD_nm},
-                                                                   {"D", 589.2938},
-                                                                   {"Cprime", 643.8469},
-                                                                   {"C", kLineC_nm},
-                                                                   {"r", 706.5188}}};
-  const ReferenceTable table("refractive_index_lines");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string& id = table.text(row, "id");
+struct NamedLine {
+  const char* name;
+  double wavelength_nm;  ///< In air.
+};
+constexpr NamedLine kC{"C", 656.2725};
+constexpr NamedLine kD{"d", kLineD_nm};
+constexpr NamedLine kF{"F", 486.1327};
+constexpr NamedLine kG{"g", 435.8343};
+constexpr NamedLine kH{"h", 404.6561};
+constexpr std::array<NamedLine, 10> kLines{{kH,
+                                            kG,
+                                            {"Fprime", 479.9914},
+                                            kF,
+                                            {"e", 546.0740},
+                                            kD,
+                                            {"D", 589.2938},
+                                            {"Cprime", 643.8469},
+                                            kC,
+                                            {"r", 706.5188}}};
+
+Figures spectral_lines() {
+  return figures_of_rows("refractive_index_lines", [&](Figures& figures, const ReferenceRow& row) {
+    const std::string& id = row.text("id");
     const RefractiveIndex index = shipped_index(id);
     for (const auto& [line, nm] : kLines) {
       const std::string column = fmt::format("n_{}", line);
-      if (!table.text(row, column).empty())
-        figures.push_back(exact_figure(id + " " + line, table.number(row, column), index.catalogued_n(nm)));
+      if (!row.text(column).empty())
+        figures.push_back({id + " " + line, row.number(column), {index.catalogued_n(nm)}});
     }
-  }
-  return figures;
+  });
 }
 
-std::vector<Figure> catalogue_indices() {
-  const ReferenceTable table("refractive_index_lines");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string& id = table.text(row, "id");
-    if (!table.text(row, "nd_catalog").empty())
-      figures.push_back(
-          exact_figure(id, table.number(row, "nd_catalog"), shipped_index(id).catalogued_n(kLineD_nm)));
-  }
-  return figures;
+Figures catalogue_indices() {
+  return figures_of_rows("refractive_index_lines", [&](Figures& figures, const ReferenceRow& row) {
+    const std::string& id = row.text("id");
+    if (!row.text("nd_catalog").empty())
+      figures.push_back({id, row.number("nd_catalog"), {shipped_index(id).catalogued_n(kLineD_nm)}});
+  });
 }
 
-// Collects what `add` appends for each row of the table. `add` receives the name of the row's glass and the
-// index at its wavelength.
-std::vector<Figure> of_glasses(
-    const std::function<void(std::vector<Figure>&, const ReferenceTable&, std::size_t row,
-                             const std::string& name, double n)>& add) {
-  const ReferenceTable table("critical_brewster_fresnel");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string& id = table.text(row, "id");
-    add(figures, table, row, id + " " + table.text(row, "line"),
-        shipped_index(id).catalogued_n(table.number(row, "wavelength_nm")));
-  }
-  return figures;
+// Figures that `add` appends for each row of the table of glasses, from the name of its glass and the index
+// at its wavelength.
+template <typename Add>
+Figures of_glasses(Add add) {
+  return figures_of_rows("critical_brewster_fresnel", [&](Figures& figures, const ReferenceRow& row) {
+    const std::string& id = row.text("id");
+    add(figures, row, id + " " + row.text("line"),
+        shipped_index(id).catalogued_n(row.number("wavelength_nm")));
+  });
 }
 
 // Smallest angle of total internal reflection [degrees], by bisection.
@@ -88,60 +86,53 @@ double critical_angle(double n) {
   return (low + high) / 2;
 }
 
-std::vector<Figure> critical_angles() {
-  return of_glasses([](std::vector<Figure>& figures, const ReferenceTable& table, std::size_t row,
-                       const std::string& name, double n) {
-    figures.push_back(exact_figure(name, table.number(row, "critical_deg"), critical_angle(n)));
+Figures critical_angles() {
+  return of_glasses([](Figures& figures, const ReferenceRow& row, const std::string& name, double n) {
+    figures.push_back({name, row.number("critical_deg"), {critical_angle(n)}});
   });
 }
 
-std::vector<Figure> brewster_reflectances() {
-  return of_glasses([](std::vector<Figure>& figures, const ReferenceTable& table, std::size_t row,
-                       const std::string& name, double n) {
-    figures.push_back(exact_figure(
-        name + ", outside", 0, fresnel_dielectric(cosine(table.number(row, "brewster_outside_deg")), n).Rp));
+Figures brewster_reflectances() {
+  return of_glasses([](Figures& figures, const ReferenceRow& row, const std::string& name, double n) {
     figures.push_back(
-        exact_figure(name + ", inside", 0,
-                     fresnel_dielectric(cosine(table.number(row, "brewster_inside_deg")), 1 / n).Rp));
+        {name + ", outside", 0, {fresnel_dielectric(cosine(row.number("brewster_outside_deg")), n).Rp}});
+    figures.push_back(
+        {name + ", inside", 0, {fresnel_dielectric(cosine(row.number("brewster_inside_deg")), 1 / n).Rp}});
   });
 }
 
-std::vector<Figure> glass_reflectances() {
-  return of_glasses([](std::vector<Figure>& figures, const ReferenceTable& table, std::size_t row,
-                       const std::string& name, double n) {
+Figures glass_reflectances() {
+  return of_glasses([](Figures& figures, const ReferenceRow& row, const std::string& name, double n) {
     for (const int angle : {0, 30, 45, 60, 75, 85}) {
       const FresnelPower<double> f = fresnel_dielectric(cosine(angle), n);
-      figures.push_back(exact_figure(fmt::format("{} s {}°", name, angle),
-                                     table.number(row, fmt::format("Rs_{}", angle)), f.Rs));
-      figures.push_back(exact_figure(fmt::format("{} p {}°", name, angle),
-                                     table.number(row, fmt::format("Rp_{}", angle)), f.Rp));
+      figures.push_back(
+          {fmt::format("{} s {}°", name, angle), row.number(fmt::format("Rs_{}", angle)), {f.Rs}});
+      figures.push_back(
+          {fmt::format("{} p {}°", name, angle), row.number(fmt::format("Rp_{}", angle)), {f.Rp}});
     }
   });
 }
 
-std::vector<Figure> metal_reflectances() {
-  const ReferenceTable table("metal_reflectance");
-  std::vector<Figure> figures;
+Figures metal_reflectances() {
   std::string loaded;
   RefractiveIndex index(1.0);
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (table.text(row, "name") != loaded) index = shipped_index(loaded = table.text(row, "name"));
-    const double nm = table.number(row, "wavelength_nm");
-    const double angle = table.number(row, "theta_deg");
+  return figures_of_rows("metal_reflectance", [&](Figures& figures, const ReferenceRow& row) {
+    if (row.text("name") != loaded) index = shipped_index(loaded = row.text("name"));
+    const double nm = row.number("wavelength_nm");
+    const double angle = row.number("theta_deg");
     const FresnelPower<double> f = fresnel_conductor(cosine(angle), index.catalogued_n(nm), index.k(nm));
     const std::string what = fmt::format("{} {} nm {}°", loaded, nm, angle);
-    figures.push_back(exact_figure(what + " s", table.number(row, "Rs"), f.Rs));
-    figures.push_back(exact_figure(what + " p", table.number(row, "Rp"), f.Rp));
-    figures.push_back(exact_figure(what, table.number(row, "R_unpol"), f.R()));
-  }
-  return figures;
+    figures.push_back({what + " s", row.number("Rs"), {f.Rs}});
+    figures.push_back({what + " p", row.number("Rp"), {f.Rp}});
+    figures.push_back({what, row.number("R_unpol"), {f.R()}});
+  });
 }
 
-std::vector<Figure> metals_at_three_angles() {
+Figures metals_at_three_angles() {
   const RefractiveIndex silver = shipped_index("Ag_Johnson");
   const auto at = [](const char* name, double n, double k, double angle, double reference) {
-    return exact_figure(fmt::format("{} 550 nm {}°", name, angle), reference,
-                        fresnel_conductor(cosine(angle), n, k).R());
+    return Figure{
+        fmt::format("{} 550 nm {}°", name, angle), reference, {fresnel_conductor(cosine(angle), n, k).R()}};
   };
   const double n = silver.catalogued_n(550);
   const double k = silver.k(550);
@@ -161,10 +152,10 @@ std::pair<double, double> worst_of_schlick(double n, double k) {
   return worst;
 }
 
-std::vector<Figure> schlick_errors() {
-  std::vector<Figure> figures;
+Figures schlick_errors() {
+  Figures figures;
   const auto add = [&](const std::string& what, double n, double k, double reference) {
-    figures.push_back(exact_figure(what, reference, worst_of_schlick(n, k).first));
+    figures.push_back({what, reference, {worst_of_schlick(n, k).first}});
   };
   const auto add_metal = [&](const char* name, double nm, double reference) {
     const RefractiveIndex index = shipped_index(name);
@@ -178,18 +169,16 @@ std::vector<Figure> schlick_errors() {
   add_metal("Cu_Johnson", 450, .0396);
   for (const auto& [what, n, degrees] :
        {std::tuple{"n = 1.5, angle [°]", 1.5, 85.0}, std::tuple{"n = 1.333, angle [°]", 1.333, 83.8}}) {
-    figures.push_back(exact_figure(what, degrees, worst_of_schlick(n, 0).second));
+    figures.push_back({what, degrees, {worst_of_schlick(n, 0).second}});
     figures.back().margin = Margin{0.11};
   }
   return figures;
 }
 
-std::vector<Figure> metal_colours() {
-  const ReferenceTable table("metal_colour_normal_incidence");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string& name = table.text(row, "name");
-    const std::string& light = table.text(row, "illuminant");
+Figures metal_colours() {
+  return figures_of_rows("metal_colour_normal_incidence", [&](Figures& figures, const ReferenceRow& row) {
+    const std::string& name = row.text("name");
+    const std::string& light = row.text("illuminant");
     const RefractiveIndex index = shipped_index(name);
     std::vector<Knot> knots;
     for (int nm = kVisibleRange.low_nm; nm <= kVisibleRange.high_nm; ++nm)
@@ -203,28 +192,25 @@ std::vector<Figure> metal_colours() {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string letters = "XYZLab";
       const auto add = [&](char letter, double value) {
-        figures.push_back(exact_figure(fmt::format("{} {} {}", name, light, letter),
-                                       table.number(row, std::string(1, letter)), value));
+        figures.push_back(
+            {fmt::format("{} {} {}", name, light, letter), row.number(std::string(1, letter)), {value}});
       };
       add(letters[i], xyz[i]);
       add(letters[i + 3], lab[i]);
     }
-  }
-  return figures;
+  });
 }
 
-std::vector<Figure> absorption() {
-  const ReferenceTable table("beer_lambert");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    std::string name = table.text(row, "name");
+Figures absorption() {
+  return figures_of_rows("beer_lambert", [&](Figures& figures, const ReferenceRow& row) {
+    std::string name = row.text("name");
     if (name.ends_with("_k")) name.erase(name.size() - 2);
-    const double nm = table.number(row, "wavelength_nm");
-    const double d = table.number(row, "d_m");
-    figures.push_back(exact_figure(fmt::format("{} {} nm {} m", name, nm, d), table.number(row, "tau"),
-                                   std::exp(-shipped_index(name).absorption_per_m(nm) * d)));
-  }
-  return figures;
+    const double nm = row.number("wavelength_nm");
+    const double d = row.number("d_m");
+    figures.push_back({fmt::format("{} {} nm {} m", name, nm, d),
+                       row.number("tau"),
+                       {std::exp(-shipped_index(name).absorption_per_m(nm) * d)}});
+  });
 }
 
 // Reflectance in diffuse light: the integral of R(theta) sin(2 theta) by the midpoint rule. `n` is the index
@@ -236,30 +222,13 @@ double hemispherical_reflectance(double n) {
   return midpoint_integral(integrand, 0, std::numbers::pi / 2, 2000000);
 }
 
-std::vector<Figure> hemispherical() {
-  return {exact_figure("from outside", 0.09177796, hemispherical_reflectance(1.5)),
-          exact_figure("from inside", 0.59634576, hemispherical_reflectance(1 / 1.5))};
-}
-
-// A case of the suite optics.
-Case computed(std::string id, std::string title, std::string source, std::string unit, Margin margin,
-              std::vector<Figure> (*figures)()) {
-  return computed_case(Suite::optics, std::move(id), std::move(title), std::move(source), std::move(unit),
-                       margin, figures);
+Figures hemispherical() {
+  return {{"from outside", 0.09177796, {hemispherical_reflectance(1.5)}},
+          {"from inside", 0.59634576, {hemispherical_reflectance(1 / 1.5)}}};
 }
 
 using V3d = Imath::V3d;
 constexpr double kMillimetre = 1e-3;
-
-struct NamedLine {
-  const char* name;
-  double wavelength_nm;
-};
-constexpr NamedLine kC{"C", kLineC_nm};
-constexpr NamedLine kD{"d", kLineD_nm};
-constexpr NamedLine kF{"F", kLineF_nm};
-constexpr NamedLine kG{"g", kLineG_nm};
-constexpr NamedLine kH{"h", kLineH_nm};
 
 // Shapes of one glass of index n in air.
 Scene glass_scene(double n, std::vector<Shape> shapes) {
@@ -272,6 +241,14 @@ Scene glass_scene(double n, std::vector<Shape> shapes) {
 
 double index_at(const char* glass, const NamedLine& line) {
   return shipped_index(glass).catalogued_n(line.wavelength_nm);
+}
+
+// Figure at each spectral line, from its reference.
+Figures of_lines(std::initializer_list<std::pair<NamedLine, double>> references,
+                 const std::function<double(const NamedLine&)>& measure) {
+  Figures figures;
+  for (const auto& [line, reference] : references) figures.push_back({line.name, reference, {measure(line)}});
+  return figures;
 }
 
 // A ray that hits the first face of a prism of side 30 mm from below its normal.
@@ -298,41 +275,34 @@ double minimum_deviation_incidence(double n, double apex_deg) {
   return std::asin(n * std::sin(apex_deg / 2 * kDegree)) / kDegree;
 }
 
-std::vector<Figure> minimum_deviations() {
-  const ReferenceTable table("prism_minimum_deviation");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (table.text(row, "min_deviation_deg").empty()) continue;
-    const std::string& id = table.text(row, "id");
-    const double apex = table.number(row, "apex_deg");
-    const double n = shipped_index(id).catalogued_n(table.number(row, "wavelength_nm"));
-    figures.push_back(exact_figure(id + " " + table.text(row, "line"), table.number(row, "min_deviation_deg"),
-                                   trace_prism(n, apex, minimum_deviation_incidence(n, apex)).deviation_deg));
-  }
-  return figures;
+Figures minimum_deviations() {
+  return figures_of_rows("prism_minimum_deviation", [&](Figures& figures, const ReferenceRow& row) {
+    if (row.text("min_deviation_deg").empty()) return;
+    const std::string& id = row.text("id");
+    const double apex = row.number("apex_deg");
+    const double n = shipped_index(id).catalogued_n(row.number("wavelength_nm"));
+    figures.push_back({id + " " + row.text("line"),
+                       row.number("min_deviation_deg"),
+                       {trace_prism(n, apex, minimum_deviation_incidence(n, apex)).deviation_deg}});
+  });
 }
 
-std::vector<Figure> deviations_at_50() {
-  std::vector<Figure> figures;
-  for (const auto& [line, reference] :
-       {std::pair{kC, 38.43841}, std::pair{kD, 38.65364}, std::pair{kF, 39.14097}, std::pair{kH, 39.83544}})
-    figures.push_back(
-        exact_figure(line.name, reference, trace_prism(index_at("N-BK7", line), 60, 50).deviation_deg));
-  return figures;
+Figures deviations_at_50() {
+  return of_lines(
+      {{kC, 38.43841}, {kD, 38.65364}, {kF, 39.14097}, {kH, 39.83544}},
+      [&](const NamedLine& line) { return trace_prism(index_at("N-BK7", line), 60, 50).deviation_deg; });
 }
 
 // Distances [mm] from the d line on a screen 1 m away, at the minimum deviation of that line.
-std::vector<Figure> screen_positions() {
+Figures screen_positions() {
   const double incidence = minimum_deviation_incidence(index_at("N-BK7", kD), 60);
   const auto deviation = [&](const NamedLine& line) {
     return trace_prism(index_at("N-BK7", line), 60, incidence).deviation_deg;
   };
-  std::vector<Figure> figures;
-  for (const auto& [line, reference] :
-       {std::pair{kC, -3.79405}, std::pair{kF, 8.59336}, std::pair{kG, 15.28664}, std::pair{kH, 20.84728}})
-    figures.push_back(exact_figure(line.name, reference,
-                                   std::tan((deviation(line) - deviation(kD)) * kDegree) / kMillimetre));
-  return figures;
+  return of_lines({{kC, -3.79405}, {kF, 8.59336}, {kG, 15.28664}, {kH, 20.84728}},
+                  [&](const NamedLine& line) {
+                    return std::tan((deviation(line) - deviation(kD)) * kDegree) / kMillimetre;
+                  });
 }
 
 // Smallest incidence at which the second face transmits, by bisection.
@@ -346,15 +316,12 @@ double edge_of_transmission(double n) {
   return high;
 }
 
-std::vector<Figure> edges_of_transmission() {
-  std::vector<Figure> figures;
-  for (const auto& [line, reference] :
-       {std::pair{kC, 29.00097}, std::pair{kD, 29.18821}, std::pair{kF, 29.61000}})
-    figures.push_back(exact_figure(line.name, reference, edge_of_transmission(index_at("N-BK7", line))));
-  return figures;
+Figures edges_of_transmission() {
+  return of_lines({{kC, 29.00097}, {kD, 29.18821}, {kF, 29.61000}},
+                  [&](const NamedLine& line) { return edge_of_transmission(index_at("N-BK7", line)); });
 }
 
-std::vector<Figure> prism_throughput() {
+Figures prism_throughput() {
   const double n = index_at("N-BK7", kD);
   const RayTrace trace = trace_prism(n, 60, minimum_deviation_incidence(n, 60)).trace;
   const Passage& in = trace.events.at(0).passage.value();
@@ -362,9 +329,10 @@ std::vector<Figure> prism_throughput() {
   const double s = (1 - in.Rs) * (1 - out.Rs);
   const double p = (1 - in.Rp) * (1 - out.Rp);
   const double chained = (1 - (in.Rs + in.Rp) / 2) * (1 - (out.Rs + out.Rp) / 2);
-  return {exact_figure("s", 0.786084, s), exact_figure("p", 0.991278, p),
-          exact_figure("unpolarised", 0.888681, trace.polarisation.mueller.rows[0][0]),
-          exact_figure("polarisation off", 0.885710, chained)};
+  return {{"s", 0.786084, {s}},
+          {"p", 0.991278, {p}},
+          {"unpolarised", 0.888681, {trace.polarisation.mueller.rows[0][0]}},
+          {"polarisation off", 0.885710, {chained}}};
 }
 
 // Lateral shift by a plate 10 mm thick at 45 degrees.
@@ -379,12 +347,9 @@ double lateral_shift_mm(double n) {
   return (moved.x - moved.z) * c / kMillimetre;
 }
 
-std::vector<Figure> lateral_shifts() {
-  std::vector<Figure> figures;
-  for (const auto& [line, reference] :
-       {std::pair{kC, 3.337199}, std::pair{kD, 3.344994}, std::pair{kF, 3.362405}})
-    figures.push_back(exact_figure(line.name, reference, lateral_shift_mm(index_at("N-BK7", line))));
-  return figures;
+Figures lateral_shifts() {
+  return of_lines({{kC, 3.337199}, {kD, 3.344994}, {kF, 3.362405}},
+                  [&](const NamedLine& line) { return lateral_shift_mm(index_at("N-BK7", line)); });
 }
 
 // Focal length of a ball 10 mm wide, from a paraxial ray.
@@ -395,12 +360,9 @@ double ball_focal_length_mm(double n) {
   return kHeight / std::tan(angle_deg({1, 0, 0}, trace.last.direction) * kDegree) / kMillimetre;
 }
 
-std::vector<Figure> ball_lens() {
-  std::vector<Figure> figures;
-  for (const auto& [line, reference] :
-       {std::pair{kC, 7.360765}, std::pair{kD, 7.337461}, std::pair{kF, 7.285822}})
-    figures.push_back(exact_figure(line.name, reference, ball_focal_length_mm(index_at("N-BK7", line))));
-  return figures;
+Figures ball_lens() {
+  return of_lines({{kC, 7.360765}, {kD, 7.337461}, {kF, 7.285822}},
+                  [&](const NamedLine& line) { return ball_focal_length_mm(index_at("N-BK7", line)); });
 }
 
 // Total deviation [degrees] of a ray that enters a ball of index n at this incidence and leaves after k
@@ -423,23 +385,20 @@ double droplet_deviation(double n, double incidence_deg, int k) {
   return turned;
 }
 
-std::vector<Figure> water_bows() {
-  const ReferenceTable table("rainbow_water_20C");
+Figures water_bows() {
   const RefractiveIndex water = shipped_index("water_20.0C");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const double nm = table.number(row, "wavelength_nm");
-    const bool absolute = table.text(row, "index_used") == "absolute";
+  return figures_of_rows("rainbow_water_20C", [&](Figures& figures, const ReferenceRow& row) {
+    const double nm = row.number("wavelength_nm");
+    const bool absolute = row.text("index_used") == "absolute";
     const double n = absolute ? water.catalogued_n(nm) : water.n(nm);
-    const int order = static_cast<int>(table.number(row, "order_k"));
-    figures.push_back(exact_figure(fmt::format("{} nm order {}{}", nm, order, absolute ? " in vacuum" : ""),
-                                   table.number(row, "deviation_deg"),
-                                   droplet_deviation(n, table.number(row, "incidence_deg"), order)));
-  }
-  return figures;
+    const int order = static_cast<int>(row.number("order_k"));
+    figures.push_back({fmt::format("{} nm order {}{}", nm, order, absolute ? " in vacuum" : ""),
+                       row.number("deviation_deg"),
+                       {droplet_deviation(n, row.number("incidence_deg"), order)}});
+  });
 }
 
-std::vector<Figure> printed_bows() {
+Figures printed_bows() {
   constexpr std::array kIndices{1.331, 1.343};
   constexpr std::array<std::array<double, 2>, 7> kPrinted{{{137.63, 139.35},
                                                            {129.63, 126.52},
@@ -448,29 +407,25 @@ std::vector<Figure> printed_bows() {
                                                            {127.08, 133.86},
                                                            {149.10, 141.13},
                                                            {65.59, 56.45}}};
-  std::vector<Figure> figures;
+  Figures figures;
   for (std::size_t i = 0; i < kPrinted.size(); ++i)
     for (std::size_t j = 0; j < kIndices.size(); ++j) {
       const int order = static_cast<int>(i) + 1;
       const double n = kIndices[j];
       const double incidence = std::acos(std::sqrt((n * n - 1) / (order * (order + 2)))) / kDegree;
       const double turned = std::fmod(droplet_deviation(n, incidence, order), 360);
-      figures.push_back(exact_figure(fmt::format("order {} n = {}", order, n), kPrinted[i][j],
-                                     std::min(turned, 360 - turned)));
+      figures.push_back(
+          {fmt::format("order {} n = {}", order, n), kPrinted[i][j], {std::min(turned, 360 - turned)}});
     }
   return figures;
-}
-
-Case traced(std::string id, std::string title, std::string source, std::string unit, double margin,
-            std::vector<Figure> (*figures)()) {
-  return computed_case(Suite::optics, std::move(id), std::move(title), std::move(source), std::move(unit),
-                       {margin}, figures);
 }
 
 }  // namespace
 
 std::vector<Case> optics_cases() {
+  const ComputedCases computed{Suite::optics};
   const Margin printed{0.5001e-8};
+  const std::string prism = "two refractions [Born1999, sec. 4.7.2]";
   return {
       computed("index-lines", "indices of all dielectrics at ten spectral lines",
                "dispersion formulas and coefficients [Polyanskiy2024]", "", {0.5001e-7}, spectral_lines),
@@ -495,31 +450,26 @@ std::vector<Case> optics_cases() {
                printed, absorption),
       computed("T16", "reflectance of glass, n = 1.5, for diffuse light",
                "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "", {1e-8}, hemispherical),
-  };
-}
-
-std::vector<Case> traced_ray_cases() {
-  const std::string prism = "two refractions [Born1999, sec. 4.7.2]";
-  return {
-      traced("D1", "minimum deviation of 60° prisms, traced", prism, "°", 0.51e-6, minimum_deviations),
-      traced("D2", "N-BK7 prism, deviation at 50° of incidence, traced", prism, "°", 0.51e-5,
-             deviations_at_50),
-      traced("D3", "N-BK7 prism, lines on a screen 1 m away", prism, "mm", 0.51e-5, screen_positions),
-      traced("D4", "N-BK7 prism, incidence at which the second face begins to transmit", prism, "°", 0.51e-5,
-             edges_of_transmission),
-      traced("D5", "N-BK7 prism, throughput at minimum deviation",
-             prism + " and Fresnel's formulas [Born1999, sec. 1.5.2]", "", 0.51e-6, prism_throughput),
+      computed("D1", "minimum deviation of 60° prisms, traced", prism, "°", {0.51e-6}, minimum_deviations),
+      computed("D2", "N-BK7 prism, deviation at 50° of incidence, traced", prism, "°", {0.51e-5},
+               deviations_at_50),
+      computed("D3", "N-BK7 prism, lines on a screen 1 m away", prism, "mm", {0.51e-5}, screen_positions),
+      computed("D4", "N-BK7 prism, incidence at which the second face begins to transmit", prism, "°",
+               {0.51e-5}, edges_of_transmission),
+      computed("D5", "N-BK7 prism, throughput at minimum deviation",
+               prism + " and Fresnel's formulas [Born1999, sec. 1.5.2]", "", {0.51e-6}, prism_throughput),
       // The table evaluates the index of air at the nominal wavelength as if in vacuum: 1e-8 in n, 3e-6
       // degrees here.
-      traced("D6", "rainbows of water, traced through a sphere", "Descartes' rays [VanDeHulst1957, chap. 13]",
-             "°", 5e-6, water_bows),
-      traced("D6-printed", "rainbows of seven orders as printed, traced through a sphere",
-             "as a textbook prints them for n = 1.331 and 1.343; Descartes' rays [VanDeHulst1957, chap. 13]",
-             "°", 0.0051, printed_bows),
-      traced("D7-plate", "N-BK7 plate of 10 mm at 45°, lateral shift, traced",
-             "t (sin i - cos i tan r) [Born1999, sec. 1.5.1]", "mm", 0.51e-6, lateral_shifts),
-      traced("D7-ball", "N-BK7 ball of 10 mm, focal length, traced", "nD/(4(n - 1)) [Born1999, sec. 4.4]",
-             "mm", 0.51e-6, ball_lens),
+      computed("D6", "rainbows of water, traced through a sphere",
+               "Descartes' rays [VanDeHulst1957, chap. 13]", "°", {5e-6}, water_bows),
+      computed(
+          "D6-printed", "rainbows of seven orders as printed, traced through a sphere",
+          "as a textbook prints them for n = 1.331 and 1.343; Descartes' rays [VanDeHulst1957, chap. 13]",
+          "°", {0.0051}, printed_bows),
+      computed("D7-plate", "N-BK7 plate of 10 mm at 45°, lateral shift, traced",
+               "t (sin i - cos i tan r) [Born1999, sec. 1.5.1]", "mm", {0.51e-6}, lateral_shifts),
+      computed("D7-ball", "N-BK7 ball of 10 mm, focal length, traced", "nD/(4(n - 1)) [Born1999, sec. 4.4]",
+               "mm", {0.51e-6}, ball_lens),
   };
 }
 

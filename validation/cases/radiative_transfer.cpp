@@ -1,7 +1,6 @@
 #include "validation/cases/radiative_transfer.h"
 
 #include <cmath>
-#include <numeric>
 
 #include "validation/cases/suites.h"
 
@@ -24,10 +23,6 @@ double ChandrasekharH::operator()(double mu) const {
   for (std::size_t i = 0; i < h_.size(); ++i)
     sum += node(i) * h_[i] / (mu + node(i)) / static_cast<double>(h_.size());
   return 1 / (std::sqrt(1 - albedo_) + albedo_ / 2 * sum);
-}
-
-double ChandrasekharH::mean() const {
-  return std::accumulate(h_.begin(), h_.end(), 0.0) / static_cast<double>(h_.size());
 }
 
 double single_scattering_radiance(const HomogeneousMedium& medium, double h, double before, double after) {

@@ -18,8 +18,6 @@ class ChandrasekharH {
 
   /// H at a cosine `mu` in [0, 1]; at least 1.
   [[nodiscard]] double operator()(double mu) const;
-  /// Mean over mu from 0 to 1. The closed form 2/albedo (1 - sqrt(1 - albedo)) differs only by rounding.
-  [[nodiscard]] double mean() const;
 
  private:
   [[nodiscard]] double node(std::size_t i) const;
@@ -28,9 +26,8 @@ class ChandrasekharH {
   std::vector<double> h_;
 };
 
-/// Homogeneous medium: scattering and extinction coefficients [1/m], and the phase function [1/sr]. The
-/// argument of `phase` is the cosine between the directions of travel before and after scattering: 1 for
-/// forward scattering.
+/// Homogeneous medium with coefficients [1/m]. The argument of the phase function [1/sr] is the cosine
+/// between the directions of travel before and after scattering: 1 for forward scattering.
 struct HomogeneousMedium {
   double scattering;
   double extinction;

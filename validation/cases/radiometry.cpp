@@ -14,6 +14,8 @@
 namespace abbe {
 namespace {
 
+constexpr double kPi = std::numbers::pi;
+
 // Power transmittance and reflectance of a plate, with all internal reflections [Born1999, sec. 7.6].
 struct Plate {
   double transmittance;
@@ -30,7 +32,7 @@ Plate plate_of(double r, double internal) {
 // mix at parallel faces. `angle_deg` is the angle of incidence in [0, 90). `internal` is the transmittance
 // of one crossing at that angle.
 Plate plate(double angle_deg, double n, double internal) {
-  const FresnelPower<double> face = fresnel_dielectric(std::cos(angle_deg * std::numbers::pi / 180), n);
+  const FresnelPower<double> face = fresnel_dielectric(std::cos(angle_deg * kPi / 180), n);
   const Plate s = plate_of(face.Rs, internal);
   const Plate p = plate_of(face.Rp, internal);
   return {(s.transmittance + p.transmittance) / 2, (s.reflectance + p.reflectance) / 2};
@@ -55,14 +57,14 @@ double room_irradiance(double flux_lm, double side, double reflectance) {
 double corner_factor(double x, double y) {
   const double a = std::sqrt(1 + x * x);
   const double b = std::sqrt(1 + y * y);
-  return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2 * std::numbers::pi);
+  return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2 * kPi);
 }
 
 // Configuration factor of a differential area and a perpendicular rectangle of unit height that starts at its
 // plane. `x` is the width of the rectangle and `y` its distance.
 double perpendicular_factor(double x, double y) {
   const double c = std::sqrt(x * x + y * y);
-  return (std::atan(1 / y) - y / c * std::atan(1 / c)) / (2 * std::numbers::pi);
+  return (std::atan(1 / y) - y / c * std::atan(1 / c)) / (2 * kPi);
 }
 
 // Configuration factor of a differential area and a parallel disc of radius r at distance h. The foot of the
@@ -108,7 +110,7 @@ std::vector<Case> room_cases() {
                      "inverse square and cosine laws [Lambert1760]", "room.json",
                      {{"/materials/wall/diffuse/reflectance", "0"}, probe_at(at, "[0, 0, 1]")}, expected, 4);
   };
-  const double intensity = 10000 / (4 * std::numbers::pi);
+  const double intensity = 10000 / (4 * kPi);
   cases.push_back(direct_at("T2-centre", "the centre of a wall", "[0, 0, -2]", intensity / 4));
   cases.push_back(
       direct_at("T2-corner", "a corner", "[1.999999, 1.999999, -2]", intensity / 12 / std::sqrt(3.0)));
@@ -118,34 +120,33 @@ std::vector<Case> room_cases() {
 std::vector<Case> form_factor_cases() {
   return {
       film_case("T3-corner", "square emitter, under its corner", "configuration factor [Howell2010, B-4]",
-                "rectangle.json", {}, std::numbers::pi * corner_factor(1, 1), 64),
+                "rectangle.json", {}, kPi * corner_factor(1, 1), 64),
       film_case("T3-centre", "square emitter, under its centre", "four corner factors [Howell2010, B-4]",
-                "rectangle.json", {probe_at("[0.5, 0.5, 0]", "[0, 0, 1]")},
-                std::numbers::pi * 4 * corner_factor(0.5, 0.5), 64),
+                "rectangle.json", {probe_at("[0.5, 0.5, 0]", "[0, 0, 1]")}, kPi * 4 * corner_factor(0.5, 0.5),
+                64),
       film_case("T3-x", "square emitter facing along x", "configuration factor [Howell2010, B-4]",
                 "rectangle.json",
                 {probe_at("[0, 0, 0]", "[1, 0, 0]"),
                  {"/lights/0/quad/corner", "[1, 0, 0]"},
                  {"/lights/0/quad/edge_u", "[0, 0, 1]"},
                  {"/lights/0/quad/edge_v", "[0, 1, 0]"}},
-                std::numbers::pi * corner_factor(1, 1), 64),
+                kPi * corner_factor(1, 1), 64),
       film_case("T4", "square emitter above the receiver's horizon", "configuration factor [Howell2010, B-3]",
-                "rectangle.json", {probe_at("[0, 0, 0]", "[1, 0, 0]")},
-                std::numbers::pi * perpendicular_factor(1, 1), 64),
+                "rectangle.json", {probe_at("[0, 0, 0]", "[1, 0, 0]")}, kPi * perpendicular_factor(1, 1), 64),
       film_case("T5-axis", "disc emitter, on its axis", "configuration factor [Howell2010, B-12]",
-                "disc.json", {}, std::numbers::pi * disc_factor(1, 1, 0), 64),
+                "disc.json", {}, kPi * disc_factor(1, 1, 0), 64),
       film_case("T5-off", "disc emitter, off its axis", "configuration factor [Howell2010, B-13]",
                 "disc.json", {probe_at("[1, 0, 0]", "[0, 0, 1]"), {"/lights/0/disc/radius", "0.5"}},
-                std::numbers::pi * disc_factor(0.5, 1, 1), 64),
+                kPi * disc_factor(0.5, 1, 1), 64),
       film_case("T6-opposite", "opposite faces of a cube", "view factor [Howell2010, C-11]",
-                "cube_faces.json", {}, std::numbers::pi * kOppositeFaces, 64),
+                "cube_faces.json", {}, kPi * kOppositeFaces, 64),
       film_case("T6-adjacent", "adjacent faces of a cube", "view factors add up to 1 [Howell2010, C-14]",
                 "cube_faces.json",
                 {{"/camera/irradiance_probe/quad",
                   R"({"corner": [0, 0, 0], "edge_u": [0, 1, 0], "edge_v": [0, 0, 1]})"}},
-                std::numbers::pi * (1 - kOppositeFaces) / 4, 64),
+                kPi * (1 - kOppositeFaces) / 4, 64),
       film_case("T6-discs", "coaxial discs", "view factor [Howell2010, C-41]", "coaxial_discs.json", {},
-                std::numbers::pi * kCoaxialDiscs, 64),
+                kPi * kCoaxialDiscs, 64),
   };
 }
 
@@ -171,7 +172,7 @@ std::vector<Case> slab_cases() {
   const double unit = pinhole_exposure(0.2);
   const Override oblique{"/camera/from", "[-34.64101615137755, 0, -20]"};
   const Override absorbing{"/materials/glass/dielectric/absorption_per_m", "1"};
-  const double chained = fresnel_dielectric(std::cos(std::numbers::pi / 3), 1.5).R();
+  const double chained = fresnel_dielectric(std::cos(kPi / 3), 1.5).R();
   const std::string bounces = "all internal bounces [Born1999, sec. 7.6]";
   return {
       film_case("T13-0", "plate along its normal", bounces, "slab.json", {},
@@ -195,11 +196,10 @@ std::vector<Case> slab_cases() {
                 unit * plate(0, 1.5, std::exp(-1.0)).reflectance, 1024),
       film_case("T16-outside", "glass in diffuse light, viewed from outside",
                 "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "interface.json", {},
-                std::numbers::pi * 0.09177796, 2048),
+                kPi * 0.09177796, 2048),
       film_case("T16-inside", "glass in diffuse light, viewed from inside",
                 "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "interface.json",
-                {{"/materials/glass/dielectric/ior", fmt::format("{}", 1 / 1.5)}},
-                std::numbers::pi * 0.59634576, 64),
+                {{"/materials/glass/dielectric/ior", fmt::format("{}", 1 / 1.5)}}, kPi * 0.59634576, 64),
   };
 }
 
@@ -208,7 +208,7 @@ std::vector<Case> slab_cases() {
 Case minimum_deviation_case(const char* glass) {
   const double n = shipped_index(glass).catalogued_n(kLineD_nm);
   const double entering = std::asin(n / 2);
-  const double elevation = entering - std::numbers::pi / 6;
+  const double elevation = entering - kPi / 6;
   const double c = std::cos(elevation);
   const double s = std::sin(elevation);
   const FresnelPower<double> face = fresnel_dielectric(std::cos(entering), n);
@@ -232,25 +232,30 @@ Case minimum_deviation_case(const char* glass) {
 Case phase_case(double phase_deg) {
   constexpr double kDistance = 1e4;
   constexpr double kFovDeg = 0.0126;
-  const double phase = phase_deg * std::numbers::pi / 180;
-  const double intensity =
-      2.0 / 3 / std::numbers::pi * (std::sin(phase) + (std::numbers::pi - phase) * std::cos(phase));
-  const double width = 2 * kDistance * std::tan(kFovDeg / 2 * std::numbers::pi / 180);
-  return film_case(fmt::format("T17-{}", phase_deg),
-                   fmt::format("Lambertian sphere at a phase angle of {}°", phase_deg),
-                   "sin α + (π - α) cos α [Lambert1760]", "phase.json",
-                   {{"/camera/pinhole/fov_deg", fmt::format("{}", kFovDeg)},
-                    {"/lights/0/point/at",
-                     fmt::format("[{}, 0, {}]", kDistance * std::sin(phase), kDistance * std::cos(phase))},
-                    {"/lights/0/emission/luminous_flux_lm",
-                     fmt::format("{}", 4 * std::numbers::pi * kDistance * kDistance)}},
-                   std::numbers::pi / 4 * intensity / (width * width), 64);
+  const double phase = phase_deg * kPi / 180;
+  const double intensity = 2.0 / 3 / kPi * (std::sin(phase) + (kPi - phase) * std::cos(phase));
+  const double width = 2 * kDistance * std::tan(kFovDeg / 2 * kPi / 180);
+  return film_case(
+      fmt::format("T17-{}", phase_deg), fmt::format("Lambertian sphere at a phase angle of {}°", phase_deg),
+      "sin α + (π - α) cos α [Lambert1760]", "phase.json",
+      {{"/camera/pinhole/fov_deg", fmt::format("{}", kFovDeg)},
+       {"/lights/0/point/at",
+        fmt::format("[{}, 0, {}]", kDistance * std::sin(phase), kDistance * std::cos(phase))},
+       {"/lights/0/emission/luminous_flux_lm", fmt::format("{}", 4 * kPi * kDistance * kDistance)}},
+      kPi / 4 * intensity / (width * width), 64);
+}
+
+std::vector<Case> prism_cases() {
+  return {minimum_deviation_case("N-BK7"), minimum_deviation_case("N-SF11")};
+}
+std::vector<Case> phase_cases() {
+  return {phase_case(0), phase_case(60), phase_case(90)};
 }
 
 std::vector<Case> integrating_sphere_cases() {
   const double offset = 0.3;
   const double distance2 = 1 + offset * offset;
-  const double uniform = 100 / (4 * std::numbers::pi);  // a light of 100 lm at the centre of a sphere of 1 m
+  const double uniform = 100 / (4 * kPi);  // a light of 100 lm at the centre of a sphere of 1 m
   const double direct = uniform / distance2 / std::sqrt(distance2);
   const double reflectance = 0.98;
   const double port = 0.01;  // fraction of the sphere's area, behind the disc
@@ -291,14 +296,12 @@ std::vector<Case> furnace_cases() {
     return film_case(fmt::format("T11-{}", vertices),
                      fmt::format("furnace, paths of at most {} vertices", vertices), source, "furnace.json",
                      {{"/render/max_depth", fmt::format("{}", vertices - 1)}},
-                     std::numbers::pi * (1 - std::pow(0.8, vertices)), 16);
+                     kPi * (1 - std::pow(0.8, vertices)), 16);
   };
-  return {film_case("T11", "furnace: emission 0.2, reflectance 0.8", source, "furnace.json", {},
-                    std::numbers::pi, 64),
+  return {film_case("T11", "furnace: emission 0.2, reflectance 0.8", source, "furnace.json", {}, kPi, 64),
           truncated(4), truncated(16)};
 }
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kGlass = 1.5;  // index of refraction in all of these scenes
 constexpr int kMidpoints = 100000;
 constexpr int kMaxChords = 24;  // about 1e-4 of grazing light remains after eight chords
@@ -434,13 +437,13 @@ std::vector<Case> pane_cases() {
 
 // A probe in a ball of glass below a dome. It is so near the centre that total internal reflection traps no
 // ray to it.
-Case inside_case() {
-  return film_case("ball-inside", "probe inside a ball of glass under a uniform dome",
-                   "radiance grows with the square of the index, and nothing is lost [Pharr2023, sec. 9.5.2]",
-                   "dome.json",
-                   {{"/camera", R"({"irradiance_probe": {"disc": {"center": [0, 0, 0], "normal": [0, 0, 1],
+std::vector<Case> inside_cases() {
+  return {film_case(
+      "ball-inside", "probe inside a ball of glass under a uniform dome",
+      "radiance grows with the square of the index, and nothing is lost [Pharr2023, sec. 9.5.2]", "dome.json",
+      {{"/camera", R"({"irradiance_probe": {"disc": {"center": [0, 0, 0], "normal": [0, 0, 1],
                                                                 "radius": 0.5}}})"}},
-                   kPi * kGlass * kGlass, 256);
+      kPi * kGlass * kGlass, 256)};
 }
 
 // A layer of albedo 0.9 below a sky of 1 cd/m^2, viewed at some cosines. It is deep enough to count as
@@ -465,7 +468,7 @@ std::vector<Case> layer_cases() {
 std::vector<Case> single_cases() {
   constexpr double kG = 0.5;  // mean cosine of the phase function [HenyeyGreenstein1941]
   const auto phase = [](double cosine) {
-    return (1 - kG * kG) / (4 * std::numbers::pi * std::pow(1 + kG * kG - 2 * kG * cosine, 1.5));
+    return (1 - kG * kG) / (4 * kPi * std::pow(1 + kG * kG - 2 * kG * cosine, 1.5));
   };
   constexpr double kAbsorption = 0.1;  // as in `lamp_in_fog.json`
   const auto radiance = [phase](double scattering) {
@@ -498,7 +501,7 @@ std::vector<Case> single_cases() {
 
 double pinhole_exposure(double fov_deg) {
   constexpr int kSteps = 400;
-  const double half = std::tan(fov_deg / 2 * std::numbers::pi / 180);
+  const double half = std::tan(fov_deg / 2 * kPi / 180);
   double sum = 0;
   for (int i = 0; i < kSteps; ++i)
     for (int j = 0; j < kSteps; ++j) {
@@ -506,7 +509,7 @@ double pinhole_exposure(double fov_deg) {
       const double y = half * (2 * (j + 0.5) / kSteps - 1);
       sum += 1 / std::pow(1 + x * x + y * y, 2);
     }
-  return std::numbers::pi / 4 * sum / (kSteps * kSteps);
+  return kPi / 4 * sum / (kSteps * kSteps);
 }
 
 Override probe_at(const std::string& point, const std::string& normal) {
@@ -515,31 +518,11 @@ Override probe_at(const std::string& point, const std::string& normal) {
 
 std::vector<Case> radiometry_cases() {
   std::vector<Case> all;
-  for (std::vector<Case> (*group)() : {room_cases, form_factor_cases, dome_cases, slab_cases})
-    for (Case& item : group()) all.push_back(std::move(item));
-  for (const char* glass : {"N-BK7", "N-SF11"}) all.push_back(minimum_deviation_case(glass));
-  for (const double phase : {0.0, 60.0, 90.0}) all.push_back(phase_case(phase));
-  return all;
-}
-
-std::vector<Case> enclosure_cases() {
-  std::vector<Case> all;
   for (std::vector<Case> (*group)() :
-       {integrating_sphere_cases, concentric_cases, plate_cases, furnace_cases})
+       {room_cases, form_factor_cases, dome_cases, slab_cases, prism_cases, phase_cases,
+        integrating_sphere_cases, concentric_cases, plate_cases, furnace_cases, ball_cases, inside_cases,
+        pane_cases, layer_cases, single_cases})
     for (Case& item : group()) all.push_back(std::move(item));
-  return all;
-}
-
-std::vector<Case> refraction_cases() {
-  std::vector<Case> all = ball_cases();
-  all.push_back(inside_case());
-  for (Case& item : pane_cases()) all.push_back(std::move(item));
-  return all;
-}
-
-std::vector<Case> scattering_cases() {
-  std::vector<Case> all = layer_cases();
-  for (Case& item : single_cases()) all.push_back(std::move(item));
   return all;
 }
 

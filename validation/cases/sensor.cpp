@@ -6,7 +6,6 @@
 
 #include "calibration/chart/patches.h"
 #include "calibration/fit/correction.h"
-#include "io/table.h"
 #include "sensor/readout/photon_transfer.h"
 #include "sensor/readout/readout.h"
 #include "sensor/response/channel.h"
@@ -17,21 +16,18 @@
 namespace abbe {
 namespace {
 
-std::vector<Figure> ccd_counts() {
-  const ReferenceTable table("ccd_bandpass_counts");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string& filter = table.text(row, "passband");
-    const std::string& efficiency = table.text(row, "ccd_qe");
-    const double kelvin = table.number(row, "T_K");
+Figures ccd_counts() {
+  return figures_of_rows("ccd_bandpass_counts", [&](Figures& figures, const ReferenceRow& row) {
+    const std::string& filter = row.text("passband");
+    const std::string& efficiency = row.text("ccd_qe");
+    const double kelvin = row.number("T_K");
     const Curve response = product(shipped_curve("filter", filter),
                                    efficiency == "none" ? Curve(1.0) : shipped_curve("camera", efficiency));
     const Channel channel = quantum_channel("counts", response);
-    figures.push_back(exact_figure(fmt::format("{} {} K, efficiency {}", filter, kelvin, efficiency),
-                                   table.number(row, "N"),
-                                   sum_product(planck(kelvin), channel.weight, {300, 1050})));
-  }
-  return figures;
+    figures.push_back({fmt::format("{} {} K, efficiency {}", filter, kelvin, efficiency),
+                       row.number("N"),
+                       {sum_product(planck(kelvin), channel.weight, {300, 1050})}});
+  });
 }
 
 // The counts of `ccd_counts` as those of a film. A fraction pi/(4 N^2) of the radiance arrives at the film of
@@ -105,7 +101,7 @@ SimulatedPair simulate(const Readout& readout, double electrons, double exposure
 }
 
 // Photon transfer of a simulated sensor with known parameters: a million pixels, dark and illuminated.
-std::vector<Figure> transferred() {
+Figures transferred() {
   Readout sensor;
   sensor.gain_e_per_dn = 1.6;
   sensor.bits = 14;
@@ -125,12 +121,12 @@ std::vector<Figure> transferred() {
   for (const SimulatedPair& pair : frames) pairs.push_back({pair.exposure_s, pair.first.dn, pair.second.dn});
   const PhotonTransfer transfer =
       photon_transfer(std::span(pairs).first(2), std::span(pairs).subspan(2), sensor.bits);
-  return {exact_figure("gain e/DN", sensor.gain_e_per_dn, transfer.gain_e_per_dn),
-          exact_figure("read noise e", sensor.read_noise_e, transfer.read_noise_e),
-          exact_figure("dark current e/s", sensor.dark_e_per_s, transfer.dark_e_per_s),
-          exact_figure("PRNU %", sensor.prnu_percent, transfer.prnu_percent),
-          exact_figure("DSNU e", sensor.dsnu_e, transfer.dsnu_e),
-          exact_figure("full well e", sensor.full_well_e, transfer.full_well_e.value_or(0))};
+  return {{"gain e/DN", sensor.gain_e_per_dn, {transfer.gain_e_per_dn}},
+          {"read noise e", sensor.read_noise_e, {transfer.read_noise_e}},
+          {"dark current e/s", sensor.dark_e_per_s, {transfer.dark_e_per_s}},
+          {"PRNU %", sensor.prnu_percent, {transfer.prnu_percent}},
+          {"DSNU e", sensor.dsnu_e, {transfer.dsnu_e}},
+          {"full well e", sensor.full_well_e, {transfer.full_well_e.value_or(0)}}};
 }
 
 // Row 0 of a chart is the perfect diffuser.
@@ -138,22 +134,19 @@ Curve patch_of(const std::string& spectra, std::size_t index) {
   return index == 0 ? Curve(1.0) : shipped_chart(spectra).patches.at(index - 1).reflectance;
 }
 
-std::vector<Figure> raw_values() {
-  const ReferenceTable table("camera_raw_colorchecker");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string& name = table.text(row, "camera");
-    const std::string& light = table.text(row, "illuminant");
+Figures raw_values() {
+  return figures_of_rows("camera_raw_colorchecker", [&](Figures& figures, const ReferenceRow& row) {
+    const std::string& name = row.text("camera");
+    const std::string& light = row.text("illuminant");
     const std::vector<Channel> channels = shipped_camera(name);
-    const std::vector<double> raw = camera_raw(
-        channels, shipped_illuminant(light),
-        patch_of(table.text(row, "spectra"), static_cast<std::size_t>(table.number(row, "index"))));
+    const std::vector<double> raw =
+        camera_raw(channels, shipped_illuminant(light),
+                   patch_of(row.text("spectra"), static_cast<std::size_t>(row.number("index"))));
     for (std::size_t k = 0; k < raw.size(); ++k)
-      figures.push_back(
-          exact_figure(fmt::format("{} {} {} {}", name, light, table.text(row, "patch"), channels[k].name),
-                       table.number(row, "raw_" + channels[k].name), raw[k]));
-  }
-  return figures;
+      figures.push_back({fmt::format("{} {} {} {}", name, light, row.text("patch"), channels[k].name),
+                         row.number("raw_" + channels[k].name),
+                         {raw[k]}});
+  });
 }
 
 struct Fitted {
@@ -161,68 +154,63 @@ struct Fitted {
   PatchColors colors;
   Matrix3 matrix;
 };
-Fitted fit_row(const ReferenceTable& table, std::size_t row) {
-  const std::string& camera = table.text(row, "camera");
-  const std::string& spectra = table.text(row, "spectra");
-  const std::string& light = table.text(row, "illuminant");
+Fitted fit_row(const ReferenceRow& row) {
+  const std::string& camera = row.text("camera");
+  const std::string& spectra = row.text("spectra");
+  const std::string& light = row.text("illuminant");
   PatchColors colors =
       integrate(shipped_chart(spectra), shipped_camera(camera), shipped_illuminant(light), kVisibleRange);
   const Matrix3 matrix = least_squares_matrix(colors);
   return {fmt::format("{} {} {}", camera, light, spectra), std::move(colors), matrix};
 }
 
-std::vector<Figure> least_squares_matrices() {
-  const ReferenceTable table("camera_least_squares_matrix");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const Fitted fitted = fit_row(table, row);
+Figures least_squares_matrices() {
+  return figures_of_rows("camera_least_squares_matrix", [&](Figures& figures, const ReferenceRow& row) {
+    const Fitted fitted = fit_row(row);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         const std::string entry = fmt::format("m{}{}", i + 1, j + 1);
-        figures.push_back(
-            exact_figure(fitted.name + " " + entry, table.number(row, entry), fitted.matrix[i][j]));
+        figures.push_back({fitted.name + " " + entry, row.number(entry), {fitted.matrix[i][j]}});
       }
-  }
-  return figures;
+  });
 }
 
-std::vector<Figure> least_squares_differences() {
-  const ReferenceTable table("camera_least_squares_matrix");
-  std::vector<Figure> figures;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const Fitted fitted = fit_row(table, row);
+Figures least_squares_differences() {
+  return figures_of_rows("camera_least_squares_matrix", [&](Figures& figures, const ReferenceRow& row) {
+    const Fitted fitted = fit_row(row);
     const PatchErrors errors = patch_errors(fitted.colors, linear_correction(fitted.matrix));
-    figures.push_back(exact_figure(fitted.name + " mean", table.number(row, "dE00_mean"), errors.mean));
-    figures.push_back(exact_figure(fitted.name + " max", table.number(row, "dE00_max"), errors.max));
-  }
-  return figures;
+    figures.push_back({fitted.name + " mean", row.number("dE00_mean"), {errors.mean}});
+    figures.push_back({fitted.name + " max", row.number("dE00_max"), {errors.max}});
+  });
 }
 
 }  // namespace
 
 std::vector<Case> sensor_cases() {
+  const ComputedCases computed{Suite::sensor};
   std::vector<Case> cases{
-      computed_case(Suite::sensor, "ccd-counts", "electrons of a filtered CCD in front of black bodies",
-                    "photon counts of Planck's law [Planck1901] in measured passbands [Bessell1990]",
-                    "1/(s m² sr)", {1e-6, Margin::Kind::relative}, ccd_counts),
+      computed("ccd-counts", "electrons of a filtered CCD in front of black bodies",
+               "photon counts of Planck's law [Planck1901] in measured passbands [Bessell1990]",
+               "1/(s m² sr)", {1e-6, Margin::Kind::relative}, ccd_counts),
       worked_example(), tilted_filter(),
-      computed_case(
-          Suite::sensor, "photon-transfer", "photon transfer recovers the parameters of a simulated sensor",
-          "the method of [EMVA1288] on simulated flats", "", {0.005, Margin::Kind::relative}, transferred)};
+      computed("photon-transfer", "photon transfer recovers the parameters of a simulated sensor",
+               "the method of [EMVA1288] on simulated flats", "", {0.005, Margin::Kind::relative},
+               transferred)};
   for (Case& item : flat_fields()) cases.push_back(std::move(item));
   return cases;
 }
 
 std::vector<Case> camera_cases() {
+  const ComputedCases computed{Suite::camera};
   const std::string source = "linear least squares over measured spectra [Pascale2012], [Ohta1997]";
   return {
-      computed_case(Suite::camera, "raw", "raw values of a measured camera for the ColorChecker",
-                    "sums over measured sensitivities and spectra [Pascale2012], [Ohta1997]", "", {5.1e-8},
-                    raw_values),
-      computed_case(Suite::camera, "least-squares", "least-squares matrices of a measured camera", source, "",
-                    {1e-6}, least_squares_matrices),
-      computed_case(Suite::camera, "least-squares-dE", "residual colour differences of those matrices",
-                    source, "ΔE", {5.1e-5}, least_squares_differences),
+      computed("raw", "raw values of a measured camera for the ColorChecker",
+               "sums over measured sensitivities and spectra [Pascale2012], [Ohta1997]", "", {5.1e-8},
+               raw_values),
+      computed("least-squares", "least-squares matrices of a measured camera", source, "", {1e-6},
+               least_squares_matrices),
+      computed("least-squares-dE", "residual colour differences of those matrices", source, "ΔE", {5.1e-5},
+               least_squares_differences),
   };
 }
 

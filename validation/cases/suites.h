@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -11,26 +12,16 @@ namespace abbe {
 
 /// Each function returns a group of cases, in the order of the report. The groups of a suite follow each
 /// other. Some read shipped tables and throw Error{input} if one is missing.
-/// Optics: refractive indices, Fresnel reflectances, critical angles and absorption.
+/// Optics: formulas of materials and surfaces, then rays traced in double precision.
 [[nodiscard]] std::vector<Case> optics_cases();
-/// Optics: rays through prisms, plates, balls and drops in double precision.
-[[nodiscard]] std::vector<Case> traced_ray_cases();
-/// Radiometry: rooms, form factors, spheres under a dome, slabs, prisms and Lambertian spheres.
+/// Radiometry: rooms, form factors, domes, slabs, enclosures, balls and panes of glass, scattering media.
 [[nodiscard]] std::vector<Case> radiometry_cases();
-/// Radiometry: integrating spheres, concentric spheres, parallel plates and furnaces.
-[[nodiscard]] std::vector<Case> enclosure_cases();
-/// Radiometry: light through balls and panes of glass.
-[[nodiscard]] std::vector<Case> refraction_cases();
-/// Radiometry: a deep scattering layer, and single scattering in fog.
-[[nodiscard]] std::vector<Case> scattering_cases();
 /// Colour: observers, white points, black bodies, daylight, colour differences and matrices of RGB spaces.
 [[nodiscard]] std::vector<Case> colour_cases();
 /// Colour: temperature, rendering and fidelity, appearance, differences for displays.
 [[nodiscard]] std::vector<Case> color_metric_cases();
-/// Colour: the ColorChecker integrated from its spectra, and its editions.
+/// Colour: the ColorChecker integrated from its spectra, its editions, and renders under several illuminants.
 [[nodiscard]] std::vector<Case> chart_cases();
-/// Colour: the ColorChecker rendered under several illuminants.
-[[nodiscard]] std::vector<Case> rendered_chart_cases();
 /// Camera: raw values and least-squares matrices of a measured camera.
 [[nodiscard]] std::vector<Case> camera_cases();
 /// Sensor: electron counts, a tilted filter and photon transfer.
@@ -40,34 +31,33 @@ namespace abbe {
 /// of the flat fields is included.
 [[nodiscard]] std::vector<Case> technique_cases(const std::vector<Case>& films);
 
-/// Measures a rendered chart: figures, margin, samples, remarks and picture. `run_case` adds the verdict, the
-/// worst figure and the cost. Throws the errors of `run_case`.
+/// Measures a rendered chart. `run_case` adds the verdict, the worst figure and the cost. Throws the errors
+/// of `run_case`.
 [[nodiscard]] CaseResult measure(const Case& item, const RenderedChart& method, const CaseSettings& settings);
 
-/// Loads a scene `file` of `data/scenes/validation` with overrides. Throws Error{internal}, which names the
-/// case `id`, if it does not load.
+/// Loads a scene of `data/scenes/validation` with overrides. Throws Error{internal}, which names the case
+/// `id`, if it does not load.
 [[nodiscard]] Scene load_case_scene(const std::string& id, const std::string& file,
                                     std::span<const Override> settings);
 
-/// A figure without sampling error. `what` is its name within the case.
-[[nodiscard]] inline Figure exact_figure(std::string what, double reference, double measured) {
-  return {std::move(what), reference, {measured, 0}};
-}
+/// Makes cases of a suite that are measured by `Computed`; the arguments are the members of `Case`.
+struct ComputedCases {
+  Suite suite;
 
-/// A case measured by `Computed`; the arguments are the members of `Case`.
-[[nodiscard]] inline Case computed_case(Suite suite, std::string id, std::string title, std::string source,
-                                        std::string unit, Margin margin, std::vector<Figure> (*figures)()) {
-  return {suite,           std::move(id), std::move(title), std::move(source),
-          std::move(unit), margin,        Computed{figures}};
-}
+  [[nodiscard]] Case operator()(std::string id, std::string title, std::string source, std::string unit,
+                                Margin margin, std::function<Figures()> figures) const {
+    return {suite,
+            std::move(id),
+            std::move(title),
+            std::move(source),
+            std::move(unit),
+            margin,
+            Computed{std::move(figures)}};
+  }
+};
 
-/// Spectral lines C, d, F, g and h: wavelengths in air. `kLineD_nm` is the helium line d, not the sodium line
-/// D.
-inline constexpr double kLineC_nm = 656.2725;
+/// Wavelength in air of the helium line d.
 inline constexpr double kLineD_nm = 587.5618;
-inline constexpr double kLineF_nm = 486.1327;
-inline constexpr double kLineG_nm = 435.8343;
-inline constexpr double kLineH_nm = 404.6561;
 
 /// Case of the suite radiometry: the mean of a film's channel against a closed form. By default the channel
 /// is Y, the illuminance times the exposure time [lx s]. The margin is 1 %, that of a thorough run 0.2 %.
@@ -90,12 +80,11 @@ inline constexpr double kLineH_nm = 404.6561;
 /// film.
 [[nodiscard]] double pinhole_exposure(double fov_deg);
 
-/// Override that replaces the camera by an irradiance probe at `point`. The probe receives light from the
-/// side to which `normal` points. Both are JSON arrays of three numbers, such as "[0, 0, 1]".
+/// Override that replaces the camera by an irradiance probe. It receives light from the side to which
+/// `normal` points. Both are JSON arrays such as "[0, 0, 1]".
 [[nodiscard]] Override probe_at(const std::string& point, const std::string& normal);
 
-/// Integral of f from a to b by the midpoint rule with `steps` >= 1 intervals. Swapping a and b changes its
-/// sign.
+/// Integral by the midpoint rule with `steps` >= 1 intervals. Swapping a and b changes its sign.
 template <typename Function>
 [[nodiscard]] double midpoint_integral(const Function& f, double a, double b, int steps) {
   const double step = (b - a) / steps;

@@ -2,17 +2,38 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "io/error.h"
+#include "io/table.h"
 #include "materials/index/library.h"
 #include "sensor/response/channel.h"
 #include "spectral/chart.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
+#include "validation/cases/case.h"
 
 namespace abbe {
+
+/// Row of a table of known answers. Both functions throw Error{input} for a missing column.
+struct ReferenceRow {
+  const ReferenceTable& table;
+  std::size_t index;
+
+  [[nodiscard]] const std::string& text(std::string_view column) const { return table.text(index, column); }
+  [[nodiscard]] double number(std::string_view column) const { return table.number(index, column); }
+};
+
+/// Figures that `add(figures, row)` appends for each row of a table of `data/reference`.
+template <typename Add>
+[[nodiscard]] Figures figures_of_rows(const std::string& table_name, Add add) {
+  const ReferenceTable table(table_name);
+  Figures figures;
+  for (std::size_t row = 0; row < table.rows(); ++row) add(figures, ReferenceRow{table, row});
+  return figures;
+}
 
 /// Value that a loader of shipped data returned. Throws Error{input} with the loader's diagnostics if there
 /// is none.
@@ -27,23 +48,20 @@ template <typename T>
   return degrees == "2" ? Observer::cie1931 : Observer::cie1964;
 }
 
-/// Shipped data by name. This function and those below throw Error{input} if the name is unknown or the table
-/// is malformed. Names are those of `load_index`.
+/// Shipped data by name. These functions throw Error{input} if the name is unknown or the table is
+/// malformed.
 [[nodiscard]] inline RefractiveIndex shipped_index(const std::string& name) {
   Diagnostics diagnostics;
   return shipped(load_index(name, {}, diagnostics), diagnostics).index;
 }
-/// Relative spectral power of an illuminant, by the names of `load_illuminant`.
 [[nodiscard]] inline Curve shipped_illuminant(const std::string& name) {
   Diagnostics diagnostics;
   return shipped(load_illuminant(name, {}, diagnostics), diagnostics).curve;
 }
-/// Curve of a folder of `data`, such as "filter", by the names of `load_curve`.
 [[nodiscard]] inline Curve shipped_curve(const std::string& folder, const std::string& name) {
   Diagnostics diagnostics;
   return shipped(load_curve(folder, name, {}, diagnostics), diagnostics).curve;
 }
-/// Channels of a measured camera, by the names of `load_camera`.
 [[nodiscard]] inline std::vector<Channel> shipped_camera(const std::string& name) {
   Diagnostics diagnostics;
   return shipped(load_camera(name, {}, diagnostics), diagnostics);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,6 @@
 
 namespace abbe {
 
-/// Settings of the BSDF bench.
 struct GoniometerSettings {
   std::vector<double> wavelengths_nm{450, 550, 650};          ///< At least one.
   std::vector<double> angles_deg{0, 15, 30, 45, 60, 75, 85};  ///< Angles of incidence in [0, 90).
@@ -55,20 +53,18 @@ struct GoniometerReport {
 /// Measures a material at all angles and wavelengths of the settings. Equal arguments give equal results.
 [[nodiscard]] GoniometerReport measure(const Material& material, const GoniometerSettings& settings);
 
-/// Map of the scattered light as an image with the channels R, G and B, sRGB code values in [0, 1]. It has
-/// one column of 96 pixels per angle of incidence of `settings` and is 192 pixels high. The upper disc of a
-/// column is the hemisphere of the incident beam and the lower disc the other one. Each disc is an equal-area
-/// projection along the normal; the beam comes from the left. Colours are those of f |cos| under the
-/// illuminant, with the cosine of the scattered direction. Each column is scaled to its largest channel.
-/// Delta directions are not drawn.
+/// Map of the scattered light: channels R, G and B of sRGB code values in [0, 1]. Each angle of incidence
+/// has a column of 96 x 192 pixels: the upper disc is the hemisphere of the incident beam, which comes from
+/// the left, the lower disc the other one, in equal-area projections. Colours are those of f |cos|, with
+/// the cosine of the scattered direction, under the illuminant, scaled to the largest channel of the
+/// column. Delta directions are not drawn.
 [[nodiscard]] Image lobe_map(const Material& material, const GoniometerSettings& settings);
 
 /// SVG document with a polar plot in the plane of incidence for each angle of `report`, which was measured
-/// for `material` with `settings`. The surface normal points up and the beam comes from the left. The radius
-/// of a curve is the square root of f |cos| [1/sr] in the scattered direction, relative to the largest value
-/// of its panel. Each wavelength has a curve. A thick line marks a delta direction at the first wavelength;
-/// its length is the square root of the fraction of power. A swatch below shows the colour of all reflected
-/// light. `title` is escaped.
+/// for `material` with `settings`. The beam comes from the left. The radius of a curve is the square root
+/// of f |cos| [1/sr] relative to the largest value of its panel, with a curve per wavelength. A thick line
+/// marks a delta direction at the first wavelength; its length is the square root of the fraction of power.
+/// A swatch shows the colour of all reflected light.
 [[nodiscard]] std::string lobe_plot(const Material& material, const GoniometerSettings& settings,
                                     const GoniometerReport& report, const std::string& title);
 

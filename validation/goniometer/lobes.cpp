@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/poisson.hpp>
@@ -189,16 +188,6 @@ AlbedoReplicates albedo_replicates(const LobeSampler& sampler, const Imath::V3f&
   return sums;
 }
 
-Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples, std::uint64_t seed) {
-  const AlbedoReplicates replicates = albedo_replicates(sampler, wo, samples, seed);
-  Albedo result{};
-  for (std::size_t j = 0; j < kLanes; ++j) {
-    result.reflected[j] = estimate(replicates.reflected[j]);
-    result.transmitted[j] = estimate(replicates.transmitted[j]);
-  }
-  return result;
-}
-
 std::vector<BsdfSample> delta_events(const Bsdf& bsdf, const Imath::V3f& wo, int hero, TransportMode mode) {
   constexpr int kChoices = 64;
   constexpr float kLast = 0x1.fffffep-1F;
@@ -207,9 +196,8 @@ std::vector<BsdfSample> delta_events(const Bsdf& bsdf, const Imath::V3f& wo, int
     const float lobe = std::min(static_cast<float>(i) / kChoices, kLast);
     const auto s = sample(bsdf, wo, {lobe, {0.5F, 0.5F}}, hero, mode);
     if (!s || !s->delta) continue;
-    const bool known = std::any_of(events.begin(), events.end(), [&](const BsdfSample& event) {
-      return event.wi == s->wi && event.pdf == s->pdf;
-    });
+    const bool known = std::ranges::any_of(
+        events, [&](const BsdfSample& event) { return event.wi == s->wi && event.pdf == s->pdf; });
     if (!known) events.push_back(*s);
   }
   return events;

@@ -18,7 +18,7 @@ namespace abbe {
 /// surface.
 using LobeSampler = std::function<std::optional<BsdfSample>(const BsdfRandom& u, int hero)>;
 
-/// Sampler of a BSDF, which is copied, for the unit outgoing direction `wo`.
+/// Sampler of a BSDF, which is copied.
 [[nodiscard]] LobeSampler sampler_of(const Bsdf& bsdf, const Imath::V3f& wo, TransportMode mode);
 
 /// Agreement of samples with a pdf.
@@ -27,44 +27,29 @@ struct DensityCheck {
   double integral;  ///< Integral of the pdf over the sphere: the probability of an event that is not delta.
 };
 /// Chi-square test of the non-delta events of `sampler` against `density` [1/sr], at the wavelength sample
-/// `hero`. Of `samples` events the frequencies are counted; half as many others define the cells. Cells with
-/// fewer than 5 expected samples are pooled. Samples without an event and delta events count as one cell. If
-/// the pool itself expects fewer than 5, a Poisson test replaces its term; it allows a millionth of all
-/// samples in excess.
+/// `hero`. It counts `samples` events in cells that half as many others define. Cells with fewer than 5
+/// expected samples are pooled. Samples without an event and delta events count as one cell. If the pool
+/// itself expects fewer than 5, a Poisson test replaces its term; it allows a millionth of all samples in
+/// excess.
 [[nodiscard]] DensityCheck check_density(const LobeSampler& sampler, const SphereDensity& density, int hero,
                                          int samples = 200000, std::uint64_t seed = 0);
 
-/// Number of independent sets of random numbers.
 inline constexpr std::size_t kReplicates = 16;
 /// Means of one quantity over each set of random numbers.
 using Replicates = std::array<double, kReplicates>;
-/// Mean of the replicates. The standard error follows from their scatter; it is 0 if they are equal.
+/// Mean and its standard error from the scatter of the replicates; 0 if they are equal.
 [[nodiscard]] Estimate estimate(const Replicates& replicates);
 
-/// Directional-hemispherical reflectance and transmittance, as fractions of the power, for each wavelength
-/// sample. The estimator is balanced over the wavelengths, each of which is the hero equally often. With a
-/// sampler in `TransportMode::power` a lossless material gives a sum of 1.
-struct Albedo {
-  std::array<Estimate, kLanes> reflected;    ///< Into the hemisphere of `wo`.
-  std::array<Estimate, kLanes> transmitted;  ///< Into the other hemisphere.
-
-  /// Sum of both means for a wavelength sample.
-  [[nodiscard]] double total(int lane) const {
-    const auto i = static_cast<std::size_t>(lane);
-    return reflected[i].mean + transmitted[i].mean;
-  }
+/// Directional-hemispherical reflectance and transmittance for each wavelength sample, as fractions of the
+/// power.
+struct AlbedoReplicates {
+  std::array<Replicates, kLanes> reflected;    ///< Into the hemisphere of `wo`.
+  std::array<Replicates, kLanes> transmitted;  ///< Into the other hemisphere.
 };
 /// Albedo for light from the unit direction `wo`, which points towards the source and is that of `sampler`.
-/// It uses about `samples` random numbers per hero, at least one in each of the `kReplicates` sets.
-[[nodiscard]] Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples = 4096,
-                            std::uint64_t seed = 0);
-
-/// Replicates of the results of `albedo` for each wavelength sample. Equal `samples` and `seed` give equal
-/// random numbers for every sampler.
-struct AlbedoReplicates {
-  std::array<Replicates, kLanes> reflected;
-  std::array<Replicates, kLanes> transmitted;
-};
+/// The estimator is balanced over the wavelengths, each of which is the hero equally often. With a sampler in
+/// `TransportMode::power` a lossless material gives a sum of 1. It uses about `samples` random numbers per
+/// hero, at least one in each set. Equal `samples` and `seed` give equal random numbers for every sampler.
 [[nodiscard]] AlbedoReplicates albedo_replicates(const LobeSampler& sampler, const Imath::V3f& wo,
                                                  int samples, std::uint64_t seed = 0);
 

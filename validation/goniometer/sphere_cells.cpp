@@ -95,7 +95,7 @@ double SphereCells::integral(const Cell& cell, const SphereDensity& density, std
   constexpr double kVisibleRatio = 0.5;
   const RuleSum whole = by_rule(cell, density);
   const auto missed = [&](const KnownDensity& f) { return kVisibleRatio * f.density > whole.max_density; };
-  if (cell.depth_high - cell.depth_low < kMinDepth || std::none_of(known.begin(), known.end(), missed))
+  if (cell.depth_high - cell.depth_low < kMinDepth || std::ranges::none_of(known, missed))
     return refined(cell, density, whole.integral, kTolerance, kQuarterings);
   const Halves halves = halved(cell);
   const auto split = std::partition(known.begin(), known.end(),

@@ -9,7 +9,7 @@
 
 namespace abbe {
 
-/// A density per solid angle [1/sr] as a function of a unit direction.
+/// Density [1/sr] as a function of a unit direction.
 using SphereDensity = std::function<double(const Imath::V3f& w)>;
 
 /// Partition of the sphere that is fine where directions are dense, so that even a very narrow lobe covers

@@ -111,7 +111,7 @@ std::string figure_details(const Outcome& outcome) {
   if (result.figures.size() < 2) return "";
   std::vector<const Figure*> figures;
   for (const Figure& figure : result.figures) figures.push_back(&figure);
-  std::stable_sort(figures.begin(), figures.end(), [&](const Figure* a, const Figure* b) {
+  std::ranges::stable_sort(figures, [&](const Figure* a, const Figure* b) {
     return std::abs(a->deviation()) / result.allowed(*a) > std::abs(b->deviation()) / result.allowed(*b);
   });
   const std::size_t listed = std::min(kMaxFigures, figures.size());
@@ -263,15 +263,6 @@ std::string summary(const ValidationReport& report) {
   return all + "</table>\n" + run_details(report);
 }
 
-std::string specimens(const ValidationReport& report) {
-  if (report.specimens.empty()) return "";
-  std::string all =
-      "<h2>Specimens</h2><p class=\"soft\">Rendered by this run, without a verdict.</p>"
-      "<div class=\"figures large\">";
-  for (const Specimen& specimen : report.specimens) all += picture(specimen.picture, specimen.caption);
-  return all + "</div>\n";
-}
-
 std::string gaps() {
   std::string all = "<h2>Not covered</h2>\n<table><tr><th>suite</th><th>what</th><th>reason</th></tr>\n";
   for (const Uncovered& gap : uncovered())
@@ -288,7 +279,7 @@ std::string html_text(const ValidationReport& report) {
       "<meta name=\"viewport\" content=\"width=device-width\"><link rel=\"icon\" href=\"data:,\">"
       "<style>{}</style></head><body>\n",
       escaped(report.version), kStyle);
-  all += summary(report) + specimens(report);
+  all += summary(report);
   for (std::size_t i = 0; i < kSuiteNames.size(); ++i) all += suite_section(report, static_cast<Suite>(i));
   return all + gaps() +
          fmt::format(

@@ -8,30 +8,27 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "calibration/output/display.h"
 #include "io/data_directory.h"
 #include "report/svg.h"
-#include "transport/render/render.h"
-#include "transport/render/white.h"
 
 namespace abbe {
 namespace {
 
 // Outcomes of the suite `techniques` as a table, with a row for each film and a column for each of
-// `kIntegratorNames`.
+// `kIntegratorNames`. It refers to the outcomes.
 struct TechniqueMatrix {
   struct Row {
     std::string film;                   ///< Id of the film's case.
-    std::vector<const Outcome*> cells;  ///< One cell per column; null if the run did not include it.
+    std::vector<const Outcome*> cells;  ///< Null if the run did not include it.
   };
-  std::vector<Row> rows;  ///< Rows in the order of the outcomes.
+  std::vector<Row> rows;
   /// Path classes that cells cannot sample, each once. Notes number them from 1.
   std::vector<PathClass> unsampled;
 };
 
 // Number of a note, counted from 1.
 std::size_t number_of(const TechniqueMatrix& matrix, const PathClass& path_class) {
-  const auto found = std::find(matrix.unsampled.begin(), matrix.unsampled.end(), path_class);
+  const auto found = std::ranges::find(matrix.unsampled, path_class);
   return static_cast<std::size_t>(found - matrix.unsampled.begin()) + 1;
 }
 
@@ -42,8 +39,7 @@ void for_each_failure(const TechniqueMatrix& matrix, Visit visit) {
       if (cell != nullptr && !cell->result.passed()) visit(*cell);
 }
 
-// Matrix of the outcomes of `TechniqueMean` cases; others are ignored. Cells of a film must be consecutive.
-// The matrix refers to `outcomes`, which must outlive it.
+// Cells of a film must be consecutive.
 TechniqueMatrix technique_matrix(const std::vector<Outcome>& outcomes) {
   TechniqueMatrix matrix;
   for (const Outcome& outcome : outcomes) {
@@ -58,9 +54,8 @@ TechniqueMatrix technique_matrix(const std::vector<Outcome>& outcomes) {
   return matrix;
 }
 
-// Text of a cell of `matrix`: the signed deviation in per cent of the reference, such as "+0.31". A cell
-// that does not pass has "FAIL" or "UNDECIDED" before it. A cell that was not measured has "lost" with the
-// numbers of its notes. A null `cell` has a dash.
+// Signed deviation in per cent of the reference, such as "+0.31", after the verdict unless the cell passes;
+// "lost" with the numbers of its notes for a cell that was not measured; a dash for none.
 std::string cell_text(const TechniqueMatrix& matrix, const Outcome* cell) {
   if (cell == nullptr) return "–";
   std::string numbers;
@@ -73,8 +68,6 @@ std::string cell_text(const TechniqueMatrix& matrix, const Outcome* cell) {
   return fmt::format("{}{:+.2f}", verdict, 100 * figure.deviation() / figure.reference);
 }
 
-// Description of a failed cell in one line: its verdict, its id, its deviation with interval and margin, and
-// the path classes that its techniques sample.
 std::string failure_text(const Outcome& cell) {
   const CaseResult& result = cell.result;
   std::string owned;
@@ -114,37 +107,10 @@ std::string matrix_text(const TechniqueMatrix& matrix) {
   return all;
 }
 
-Specimen render_specimen(const std::string& file, const std::string& caption,
-                         const std::vector<Override>& settings, int threads) {
-  Diagnostics diagnostics;
-  const std::optional<Scene> scene = load_scene(data_directory() / "scenes" / file, settings, diagnostics);
-  if (!scene) throw Error(ErrorCode::internal, file, diagnostics.text());
-  const RenderResult rendered = render(*scene, {.threads = threads});
-  std::vector<std::string> names;
-  for (const Channel& channel : scene->channels) names.push_back(channel.name);
-  const DisplayTransform display = make_display(scene->channels, *white_of(*scene).spectrum);
-  return {fmt::format("{} {} samples per pixel, {:.1f} CPU s.", caption, scene->render.samples,
-                      rendered.stats.cpu_s),
-          display(rendered.film.image(names)).image};
-}
-
-std::vector<Specimen> render_specimens(const ValidationSettings& settings) {
-  const Override samples{"/render/samples", settings.quick ? "64" : "256"};
-  const Override observer{"/sensor",
-                          R"({"observer": "1931", "resolution": [480, 270], "pixel_pitch_um": 18})"};
-  return {render_specimen("prism.json",
-                          "A slit of illuminant A through a prism of N-SF11, on a CCD behind ideal filters.",
-                          {samples, {"/sensor/resolution", "[480, 270]"}, {"/sensor/pixel_pitch_um", "18"}},
-                          settings.threads),
-          render_specimen("prism.json", "The same scene, recorded by the CIE 1931 observer.",
-                          {samples, observer}, settings.threads),
-          render_specimen("cornell.json", "The Cornell box, as measured.", {samples}, settings.threads)};
-}
-
 // True if the settings select the case. A quick run of all suites includes only a few cells of the matrix.
 bool is_selected(const Case& item, const ValidationSettings& settings) {
   const std::vector<Suite>& suites = settings.suites;
-  if (!suites.empty() && std::find(suites.begin(), suites.end(), item.suite) == suites.end()) return false;
+  if (!suites.empty() && std::ranges::find(suites, item.suite) == suites.end()) return false;
   const auto* cell = std::get_if<TechniqueMean>(&item.method);
   if (cell == nullptr || cell->tier == Tier::quick) return true;
   return cell->tier != Tier::never && (!settings.quick || !suites.empty());
@@ -228,7 +194,6 @@ DeviationText deviation_text(const Outcome& outcome, const Figure& figure) {
   return {fmt::format("{:.2g} %", 100 * relative), fmt::format("{:g} %", 100 * margin.value)};
 }
 
-// The first figure is the mean of the others.
 ChartSummary chart_summary(const CaseResult& result) {
   ChartSummary summary{result.figures.at(0).measured.mean, 0};
   for (std::size_t i = 1; i < result.figures.size(); ++i)
@@ -257,24 +222,23 @@ std::string chart_table(const std::vector<Outcome>& outcomes) {
 
 std::size_t ValidationReport::failures() const {
   return static_cast<std::size_t>(
-      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.result.passed(); }));
+      std::ranges::count_if(outcomes, [](const Outcome& o) { return !o.result.passed(); }));
 }
 
 std::size_t ValidationReport::unsampled() const {
   return static_cast<std::size_t>(
-      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.result.measured(); }));
+      std::ranges::count_if(outcomes, [](const Outcome& o) { return !o.result.measured(); }));
 }
 
 ValidationReport validate(const ValidationSettings& settings) {
   const CostMeter meter;
-  ValidationReport report{this_machine(), settings.version, data_sha256(), settings.quick, {}, {}, {}};
+  ValidationReport report{this_machine(), settings.version, data_sha256(), settings.quick, {}, {}};
   for (const Case& item : all_cases()) {
     if (!is_selected(item, settings)) continue;
     if (settings.say) settings.say(fmt::format("{} {}: {}", suite_name(item.suite), item.id, item.title));
     report.outcomes.push_back(
         {&item, run_case(item, {.thorough = !settings.quick, .threads = settings.threads})});
   }
-  if (settings.specimens) report.specimens = render_specimens(settings);
   report.cost = meter.spent();
   return report;
 }

@@ -10,27 +10,19 @@
 
 namespace abbe {
 
-/// A case and its result.
 struct Outcome {
   const Case* item;  ///< Element of `all_cases`.
   CaseResult result;
 };
 
-/// A picture for illustration, without a verdict.
-struct Specimen {
-  std::string caption;
-  Image picture;  ///< Display code values in [0, 1].
-};
-
 /// All results of a validation.
 struct ValidationReport {
   Machine machine;
-  std::string version;              ///< Version of Abbe, from the settings.
-  std::string data_sha256;          ///< Hash of the shipped tables, by `data_sha256`.
-  bool quick;                       ///< `ValidationSettings::quick` of the run.
-  std::vector<Outcome> outcomes;    ///< Outcomes of the selected cases, in the order of `all_cases`.
-  std::vector<Specimen> specimens;  ///< Empty unless the settings request them.
-  Cost cost;  ///< Cost of the whole run, including loading scenes and rendering specimens.
+  std::string version;
+  std::string data_sha256;
+  bool quick;
+  std::vector<Outcome> outcomes;  ///< In the order of `all_cases`.
+  Cost cost;                      ///< Of the whole run, including loading scenes.
 
   /// Number of outcomes that do not pass; inconclusive ones are included.
   [[nodiscard]] std::size_t failures() const;
@@ -40,34 +32,29 @@ struct ValidationReport {
 
 /// Settings of a validation.
 struct ValidationSettings {
-  /// Suites to run. If empty, all run, but a quick run then includes only the cells of `techniques` in
-  /// `Tier::quick`.
+  /// Suites to run. If empty, all run, a quick run only with the cells of `techniques` in `Tier::quick`.
   std::vector<Suite> suites;
   /// Judge films by the wider margins of the tests, with accordingly fewer samples. Otherwise the fine
   /// margins apply (`CaseSettings::thorough`).
   bool quick = false;
-  bool specimens = false;                       ///< Also render some scenes as illustrations.
-  int threads = 0;                              ///< Number of threads; 0 for one per processor.
-  std::string version;                          ///< Version of Abbe that the report records.
+  int threads = 0;  ///< 0 for one per processor.
+  std::string version;
   std::function<void(const std::string&)> say;  ///< Called with the name of each case before it runs, if set.
 };
 
-/// Runs the cases of the selected suites in the order of `all_cases`, one after another. A case that fails
-/// does not end the run. Throws the errors of `all_cases`, `run_case` and `data_sha256`. With `specimens`,
-/// also throws Error{internal} if their scenes do not load.
+/// Runs the cases of the selected suites in the order of `all_cases`. Throws the errors of `all_cases`,
+/// `run_case` and `data_sha256`.
 [[nodiscard]] ValidationReport validate(const ValidationSettings& settings);
 
-/// Report in plain text: a line per case with its worst figure, the matrix of `techniques`, the table of
-/// charts, and the topics that are not covered. The last line counts the cases that pass.
+/// Report in plain text. The last line counts the cases that pass.
 [[nodiscard]] std::string readable_text(const ValidationReport& report);
 
-/// One JSON object in one line, with all figures and all digits, without pictures.
+/// One JSON object in one line with all digits.
 [[nodiscard]] std::string json_text(const ValidationReport& report);
 
-/// Self-contained HTML document with the figures, plots, pictures and specimens of the run.
+/// Self-contained HTML document with the figures, plots and pictures of the run.
 [[nodiscard]] std::string html_text(const ValidationReport& report);
 
-/// Name of a suite, such as "optics".
 [[nodiscard]] std::string suite_name(Suite suite);
 /// Name of a verdict: "pass", "FAIL", or "UNDECIDED" for `inconclusive`.
 [[nodiscard]] std::string verdict_name(Verdict verdict);
@@ -75,14 +62,13 @@ struct ValidationSettings {
 /// without figures, 0 if the integrator cannot sample the film.
 [[nodiscard]] double worst_margin_ratio(const CaseResult& result);
 
-/// Deviation and margin of a figure in the same unit. For a relative margin the unit is per cent of the
-/// reference, or a fraction of it if the margin is below 1e-4. For an absolute margin it is the unit of the
-/// case. The deviation is signed.
+/// Signed deviation and margin of a figure, such as "0.016" and "0.15 ΔE".
 struct DeviationText {
-  std::string deviation;  ///< For example "0.31 %", "2.1e-12" or "0.016".
-  std::string margin;     ///< For example "1 %", "1e-09 relative" or "0.15 ΔE".
+  std::string deviation;
+  std::string margin;
 };
-/// Texts for one of the figures of `outcome`.
+/// Texts for one of the figures of `outcome`. For a relative margin the unit is per cent of the reference, or
+/// a fraction of it if the margin is below 1e-4. For an absolute margin it is the unit of the case.
 [[nodiscard]] DeviationText deviation_text(const Outcome& outcome, const Figure& figure);
 
 /// Colour differences ΔE2000 of a rendered chart.
@@ -90,14 +76,11 @@ struct ChartSummary {
   double mean;   ///< Mean over the patches.
   double worst;  ///< Largest value of a patch.
 };
-/// Summary of a case measured by `RenderedChart`, whose first figure is the mean of the others.
 [[nodiscard]] ChartSummary chart_summary(const CaseResult& result);
-/// Table of all rendered charts in Markdown, as README.md contains it, with a column per illuminant. Empty
-/// without charts.
+/// Table of all rendered charts in Markdown, as README.md contains it; empty without charts.
 [[nodiscard]] std::string chart_table(const std::vector<Outcome>& outcomes);
 
-/// Outcomes of `TechniqueMean` cases as an HTML table, with a row for each film and a column for each of
-/// `kIntegratorNames`, notes and failures. Empty without such outcomes.
+/// HTML table of `TechniqueMean` cases with notes and failures; empty without such outcomes.
 [[nodiscard]] std::string technique_table_html(const std::vector<Outcome>& outcomes);
 
 }  // namespace abbe

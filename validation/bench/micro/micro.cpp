@@ -184,7 +184,7 @@ void evaluate_material(benchmark::State& state, MaterialModel (*model)()) {
   evaluate_bsdf(state, make_bsdf(material, {wavelengths}));
 }
 MaterialModel coated_diffuse() {
-  return CoatedDiffuseMaterial{"N-BK7", index_of("N-BK7"), Curve(0.5)};
+  return CoatedDiffuseMaterial{Curve(0.5), "N-BK7", index_of("N-BK7")};
 }
 MaterialModel mirror() {
   return MirrorMaterial{Curve(0.9)};

@@ -6,12 +6,10 @@
 #include <cfenv>
 #include <cmath>
 #include <csignal>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <dlfcn.h>
@@ -22,7 +20,6 @@
 #include "io/error.h"
 #include "transport/render/choose_integrator.h"
 #include "transport/render/render.h"
-#include "validation/bench/soak/drawing.h"
 
 namespace abbe::soak {
 namespace {

@@ -7,11 +7,10 @@
 
 namespace abbe::soak {
 
-/// Result of checking a scene.
 struct Outcome {
-  std::uint64_t paths = 0;  ///< Number of paths of the first render.
-  std::uint64_t rays = 0;   ///< Number of rays of the first render.
-  std::string failure;      ///< Description of the first failure; empty if there is none.
+  std::uint64_t paths = 0;  ///< Of the first render, like `rays`.
+  std::uint64_t rays = 0;
+  std::string failure;  ///< Empty if there is none.
 };
 
 /// Loads and renders the scene several times and looks for failures:

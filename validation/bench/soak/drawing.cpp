@@ -1,11 +1,8 @@
 #include "validation/bench/soak/drawing.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <numbers>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -85,34 +82,26 @@ Mesh ball(Random& random) {
 
 // A time during the exposure of some row, or before or after it.
 double keyframe_time(Drawing& drawing) {
-  return drawing.open_s + drawing.exposure_s * uniform(drawing.random, -1, 3);
+  return drawing.open_s + drawing.exposure_s * uniform(drawing, -1, 3);
 }
 
 }  // namespace
 
 Json draw_curve(Drawing& drawing, double max_value) {
-  Random& random = drawing.random;
-  switch (integer(random, 0, 6)) {
-    case 0:
-      return table(random, max_value);
-    case 1:
-      return band(random, max_value);
-    case 2:
-      return gaussian(random, max_value);
-    case 3:
-      return {{"product", {band(random, 1), gaussian(random, max_value)}}};
-    case 4:
-      return {{"sum", {table(random, max_value / 2), {{"scale", 0.5}, {"of", band(random, max_value)}}}}};
-    default:
-      return uniform(random, 0, max_value);
-  }
+  const int kind = integer(drawing, 0, 6);
+  if (kind == 0) return table(drawing, max_value);
+  if (kind == 1) return band(drawing, max_value);
+  if (kind == 2) return gaussian(drawing, max_value);
+  if (kind == 3) return {{"product", {band(drawing, 1), gaussian(drawing, max_value)}}};
+  if (kind == 4)
+    return {{"sum", {table(drawing, max_value / 2), {{"scale", 0.5}, {"of", band(drawing, max_value)}}}}};
+  return uniform(drawing, 0, max_value);
 }
 
 Json draw_reflectance(Drawing& drawing, bool& varies) {
-  Random& random = drawing.random;
-  const int kind = integer(random, 0, 9);
-  if (kind == 0) return one_of(random, {0, 1});
-  if (kind <= 3) return "cornell_box_walls:" + std::string(one_of(random, {"red", "green", "white"}));
+  const int kind = integer(drawing, 0, 9);
+  if (kind == 0) return one_of(drawing, {0, 1});
+  if (kind <= 3) return "cornell_box_walls:" + std::string(one_of(drawing, {"red", "green", "white"}));
   if (kind >= 6) return draw_curve(drawing, 1);
   varies = true;
   Json texture{{"image", draw_image(drawing, {"R", "G", "B"}, 0, 1)}};
@@ -120,39 +109,38 @@ Json draw_reflectance(Drawing& drawing, bool& varies) {
     texture["rgb"] = true;
   else
     texture["weights"] = {{"R", draw_curve(drawing, 0.5)}, {"B", draw_curve(drawing, 0.5)}};
-  texture["filter"] = one_of(random, {"bilinear", "nearest"});
-  texture["wrap"] = one_of(random, {"repeat", "clamp"});
-  texture["scale"] = {decades(random, 0.01, 100), -decades(random, 0.01, 100)};
-  texture["offset"] = {uniform(random, -9, 9), uniform(random, -9, 9)};
+  texture["filter"] = one_of(drawing, {"bilinear", "nearest"});
+  texture["wrap"] = one_of(drawing, {"repeat", "clamp"});
+  texture["scale"] = {decades(drawing, 0.01, 100), -decades(drawing, 0.01, 100)};
+  texture["offset"] = {uniform(drawing, -9, 9), uniform(drawing, -9, 9)};
   return texture;
 }
 
 Json draw_direction(Drawing& drawing) {
-  Random& random = drawing.random;
   Json direction = Json::array();
-  const double length = decades(random, 1e-3, 1e3);
-  for (int axis = 0; axis < 3; ++axis) direction.push_back(length * uniform(random, -1, 1));
+  const double length = decades(drawing, 1e-3, 1e3);
+  for (int axis = 0; axis < 3; ++axis) direction.push_back(length * uniform(drawing, -1, 1));
   // Directions along an axis exercise special cases of frames and slabs.
-  if (chance(random, 0.2)) direction[static_cast<std::size_t>(integer(random, 0, 1))] = 0;
-  if (chance(random, 0.1)) direction = {0, 0, -length};
+  if (chance(drawing, 0.2)) direction[static_cast<std::size_t>(integer(drawing, 0, 1))] = 0;
+  if (chance(drawing, 0.1)) direction = {0, 0, -length};
   return direction;
 }
 
 Json draw_position(Drawing& drawing, double extent) {
   Json position = Json::array();
   for (const double center : drawing.center)
-    position.push_back(center + drawing.size * extent * uniform(drawing.random, -1, 1));
+    position.push_back(center + drawing.size * extent * uniform(drawing, -1, 1));
   return position;
 }
 
 std::string draw_image(Drawing& drawing, const std::vector<std::string>& channels, double low, double high) {
   Image image;
-  image.width = integer(drawing.random, 2, 9);
-  image.height = integer(drawing.random, 2, 9);
+  image.width = integer(drawing, 2, 9);
+  image.height = integer(drawing, 2, 9);
   for (const std::string& name : channels) {
     image.channels.push_back({name, {}});
     for (std::size_t i = 0; i < image.pixels(); ++i)
-      image.channels.back().values.push_back(static_cast<float>(uniform(drawing.random, low, high)));
+      image.channels.back().values.push_back(static_cast<float>(uniform(drawing, low, high)));
   }
   const std::filesystem::path path = name_of(drawing, ".exr");
   write_exr(path, image);
@@ -160,8 +148,7 @@ std::string draw_image(Drawing& drawing, const std::vector<std::string>& channel
 }
 
 std::string draw_densities(Drawing& drawing) {
-  Random& random = drawing.random;
-  const std::array<int, 3> nodes{integer(random, 2, 9), integer(random, 2, 9), integer(random, 2, 9)};
+  const std::array<int, 3> nodes{integer(drawing, 2, 9), integer(drawing, 2, 9), integer(drawing, 2, 9)};
   std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, {}), }}",
                                    nodes[0], nodes[1], nodes[2]);
   header.resize(118 - 1, ' ');  // aligns the numbers to a multiple of 64 bytes
@@ -171,7 +158,7 @@ std::string draw_densities(Drawing& drawing) {
   bytes += static_cast<char>(header.size() >> 8U);
   bytes += header;
   for (int i = nodes[0] * nodes[1] * nodes[2]; i > 0; --i) {
-    const auto value = static_cast<float>(chance(random, 0.3) ? 0 : decades(random, 1e-6, 1));
+    const auto value = static_cast<float>(chance(drawing, 0.3) ? 0 : decades(drawing, 1e-6, 1));
     const auto bits = std::bit_cast<std::array<char, 4>>(value);
     bytes.append(bits.data(), bits.size());
   }
@@ -181,30 +168,29 @@ std::string draw_densities(Drawing& drawing) {
 }
 
 std::string draw_mesh_file(Drawing& drawing) {
-  if (chance(drawing.random, 0.5)) {
+  if (chance(drawing, 0.5)) {
     const std::filesystem::path path = name_of(drawing, ".obj");
-    write_atomically(path, obj_ball(drawing.random));
+    write_atomically(path, obj_ball(drawing));
     return path.filename();
   }
   const std::filesystem::path path = name_of(drawing, ".ply");
-  write_ply(path, ball(drawing.random));
+  write_ply(path, ball(drawing));
   return path.filename();
 }
 
 void maybe_animate(Drawing& drawing, Json& object) {
-  Random& random = drawing.random;
-  if (!drawing.moves || !chance(random, 0.4)) return;
+  if (!drawing.moves || !chance(drawing, 0.4)) return;
   std::vector<double> times;
-  for (int i = integer(random, 1, 3); i > 0; --i) times.push_back(keyframe_time(drawing));
-  std::sort(times.begin(), times.end());
+  for (int i = integer(drawing, 1, 3); i > 0; --i) times.push_back(keyframe_time(drawing));
+  std::ranges::sort(times);
   // Rotations are about the origin. Only a box around the origin stays near its position.
-  const bool turns = drawing.center == std::array<double, 3>{0, 0, 0} && chance(random, 0.5);
+  const bool turns = drawing.center == std::array<double, 3>{0, 0, 0} && chance(drawing, 0.5);
   const Json axis = draw_direction(drawing);
   for (const double time : times) {
     Json keyframe{{"time_s", time}};
-    if (turns) keyframe["rotate"] = {{"axis", axis}, {"deg", uniform(random, -20, 20)}};
+    if (turns) keyframe["rotate"] = {{"axis", axis}, {"deg", uniform(drawing, -20, 20)}};
     Json offset = Json::array();
-    for (int i = 0; i < 3; ++i) offset.push_back(drawing.size * decades(random, 1e-6, 0.05));
+    for (int i = 0; i < 3; ++i) offset.push_back(drawing.size * decades(drawing, 1e-6, 0.05));
     keyframe["translate"] = offset;
     object["motion"]["keyframes"].push_back(keyframe);
   }

@@ -29,7 +29,6 @@ inline double decades(Random& random, double low, double high) {
   return std::exp(uniform(random, std::log(low), std::log(high)));
 }
 
-/// True with the given probability in [0, 1].
 inline bool chance(Random& random, double probability) {
   return uniform(random, 0, 1) < probability;
 }
@@ -40,7 +39,7 @@ inline double signed_decades(Random& random, double low, double high) {
   return chance(random, 0.5) ? -size : size;
 }
 
-/// Uniform integer in [low, high].
+/// Uniform in [low, high].
 inline int integer(Random& random, int low, int high) {
   return low + static_cast<int>(uniform(random, 0, high - low + 1));
 }
@@ -67,7 +66,6 @@ inline constexpr const char* kOutsideChannel = "outside";
 /// channel's own exposure multiplies the scene's.
 inline constexpr double kMaxExposure_s = 10;
 
-/// A drawn material and the conditions on shapes made of it.
 struct DrawnMaterial {
   std::string name;
   bool can_be_mixed = false;  ///< Allowed as a component of a mixture.
@@ -76,23 +74,22 @@ struct DrawnMaterial {
   bool needs_surface_uv = false;
 };
 
-/// A scene under construction; all lengths are in the scene's unit.
-struct Drawing {
-  Random random;
-  std::filesystem::path folder;  ///< Folder of the scene's files.
+/// A scene under construction and its random generator; all lengths are in the scene's unit.
+struct Drawing : Random {
+  std::filesystem::path folder;
   bool closed = false;           ///< The camera is in a closed opaque box. `draw_render` may clear it.
   bool signed_response = false;  ///< A channel may have a negative response.
-  double unit_m = 1;             ///< Metres per unit of the scene.
-  double size = 1;               ///< The box extends from -size to size on each axis, around `center`.
+  double unit_m = 1;
+  double size = 1;  ///< The box extends from -size to size on each axis, around `center`.
   std::array<double, 3> center{0, 0, 0};
-  double brightness = 1;                 ///< Order of magnitude of the numbers that describe emission.
-  bool uses_probe = false;               ///< A probe replaces the camera.
-  bool moves = false;                    ///< Shapes, lights and the camera may move during the exposure.
-  double open_s = 0;                     ///< Time at which the shutter opens [s], on the scale of keyframes.
-  double exposure_s = 1;                 ///< Duration of the exposure.
-  std::vector<DrawnMaterial> materials;  ///< Materials drawn so far.
-  std::vector<Json> targets;             ///< Positions of shapes, for the camera to look at.
-  Json scene;                            ///< Description of the scene so far.
+  double brightness = 1;  ///< Order of magnitude of the numbers that describe emission.
+  bool uses_probe = false;
+  bool moves = false;  ///< Shapes, lights and the camera may move during the exposure.
+  double open_s = 0;   ///< Time at which the shutter opens [s], on the scale of keyframes.
+  double exposure_s = 1;
+  std::vector<DrawnMaterial> materials;
+  std::vector<Json> targets;  ///< Positions of shapes, for the camera to look at.
+  Json scene;
 };
 
 /// A curve over wavelength in the scene language, with values in [0, max_value].

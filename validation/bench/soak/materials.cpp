@@ -14,16 +14,11 @@ constexpr double kMaxLayerK = 10;
 constexpr double kMaxClearK = 1e-2;
 
 Json dielectric_index(Random& random, double max_k) {
-  switch (integer(random, 0, 7)) {
-    case 0:
-      return one_of(random, {1.0, 1.0000001, 1.000001, 1.001, 1.5, 2.417, 4.0});
-    case 1:
-      return decades(random, 0.05, 20);
-    case 2:
-      return {{"n", decades(random, 0.3, 4)}, {"k", decades(random, 1e-12, max_k)}};
-    default:
-      return one_of(random, {"N-BK7", "N-SF11", "N-SF66", "F2", "water", "ice_warren2008", "hikari/F2"});
-  }
+  const int kind = integer(random, 0, 7);
+  if (kind == 0) return one_of(random, {1.0, 1.0000001, 1.000001, 1.001, 1.5, 2.417, 4.0});
+  if (kind == 1) return decades(random, 0.05, 20);
+  if (kind == 2) return {{"n", decades(random, 0.3, 4)}, {"k", decades(random, 1e-12, max_k)}};
+  return one_of(random, {"N-BK7", "N-SF11", "N-SF66", "F2", "water", "ice_warren2008", "hikari/F2"});
 }
 
 Json metal_index(Random& random) {
@@ -62,10 +57,9 @@ Json roughness(Random& random, bool& varies) {
 
 // Coefficient per metre, grey or coloured. Optical depths across the box range from negligible to opaque.
 Json coefficient(Drawing& drawing, double max_depth) {
-  Random& random = drawing.random;
-  const double one = decades(random, 1e-8, max_depth) / (2 * drawing.size * drawing.unit_m);
-  if (chance(random, 0.2)) return 0;
-  return chance(random, 0.5) ? Json(one) : draw_curve(drawing, one);
+  const double one = decades(drawing, 1e-8, max_depth) / (2 * drawing.size * drawing.unit_m);
+  if (chance(drawing, 0.2)) return 0;
+  return chance(drawing, 0.5) ? Json(one) : draw_curve(drawing, one);
 }
 
 Json phase(Random& random) {
@@ -84,31 +78,29 @@ Json clear_absorption(Drawing& drawing) {
 }
 
 Json dielectric(Drawing& drawing, DrawnMaterial& drawn) {
-  Random& random = drawing.random;
-  Json glass{{"ior", dielectric_index(random, kMaxClearK)}};
-  if (glass["ior"].is_number() && chance(random, 0.4)) glass["absorption_per_m"] = clear_absorption(drawing);
-  if (chance(random, 0.3)) {
+  Json glass{{"ior", dielectric_index(drawing, kMaxClearK)}};
+  if (glass["ior"].is_number() && chance(drawing, 0.4)) glass["absorption_per_m"] = clear_absorption(drawing);
+  if (chance(drawing, 0.3)) {
     glass["scattering_per_m"] = coefficient(drawing, kMaxScatteringDepth);
-    glass["phase"] = phase(random);
+    glass["phase"] = phase(drawing);
   }
-  if (chance(random, 0.2))
-    glass["coating"] = layers(random);
-  else if (chance(random, 0.4))
-    glass["roughness"] = roughness(random, drawn.needs_surface_uv);
+  if (chance(drawing, 0.2))
+    glass["coating"] = layers(drawing);
+  else if (chance(drawing, 0.4))
+    glass["roughness"] = roughness(drawing, drawn.needs_surface_uv);
   return glass;
 }
 
 Json medium(Drawing& drawing) {
-  Random& random = drawing.random;
   Json fog{{"absorption_per_m", coefficient(drawing, kMaxAbsorptionDepth)},
            {"scattering_per_m", coefficient(drawing, kMaxScatteringDepth)},
-           {"phase", phase(random)}};
-  if (chance(random, 0.3)) {
+           {"phase", phase(drawing)}};
+  if (chance(drawing, 0.3)) {
     Json to = draw_position(drawing, 0.2);
     Json from = to;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      from[axis] = from[axis].get<double>() - drawing.size * decades(random, 0.01, 1);
-      to[axis] = to[axis].get<double>() + drawing.size * decades(random, 0.01, 1);
+      from[axis] = from[axis].get<double>() - drawing.size * decades(drawing, 0.01, 1);
+      to[axis] = to[axis].get<double>() + drawing.size * decades(drawing, 0.01, 1);
     }
     fog["grid"] = {{"densities", draw_densities(drawing)}, {"from", from}, {"to", to}};
   }
@@ -125,48 +117,44 @@ Json conductor(Random& random, DrawnMaterial& drawn) {
 }
 
 Json thin_glass(Drawing& drawing) {
-  Random& random = drawing.random;
-  Json pane{{"ior", decades(random, 1, 4)}, {"thickness", drawing.size * decades(random, 1e-6, 1e-1)}};
-  if (chance(random, 0.5)) pane["absorption_per_m"] = clear_absorption(drawing);
+  Json pane{{"ior", decades(drawing, 1, 4)}, {"thickness", drawing.size * decades(drawing, 1e-6, 1e-1)}};
+  if (chance(drawing, 0.5)) pane["absorption_per_m"] = clear_absorption(drawing);
   return pane;
 }
 
 Json principled(Drawing& drawing, DrawnMaterial& drawn) {
   Json paint{{"base_color", draw_reflectance(drawing, drawn.needs_surface_uv)}};
   for (const char* key : {"metallic", "roughness", "specular", "sheen", "clearcoat", "clearcoat_gloss"})
-    if (chance(drawing.random, 0.6))
-      paint[key] =
-          chance(drawing.random, 0.2) ? one_of(drawing.random, {0.0, 1.0}) : uniform(drawing.random, 0, 1);
+    if (chance(drawing, 0.6))
+      paint[key] = chance(drawing, 0.2) ? one_of(drawing, {0.0, 1.0}) : uniform(drawing, 0, 1);
   return paint;
 }
 
 // Thin elements transmit light without deflection and change its polarisation.
 Json thin_element(Drawing& drawing, const std::string& name) {
-  Random& random = drawing.random;
   Json element = Json::object();
-  if (chance(random, 0.5)) element["transmittance"] = draw_curve(drawing, 1);
+  if (chance(drawing, 0.5)) element["transmittance"] = draw_curve(drawing, 1);
   if (name == "depolariser") return element;
-  if (chance(random, 0.5)) element["angle_deg"] = uniform(random, -360, 360);
+  if (chance(drawing, 0.5)) element["angle_deg"] = uniform(drawing, -360, 360);
   if (name == "polariser") {
-    if (chance(random, 0.5)) element["extinction_ratio"] = decades(random, 1, 1e9);
-  } else if (chance(random, 0.5)) {
-    element["retardance_deg"] = chance(random, 0.3) ? 90 : uniform(random, -720, 720);
+    if (chance(drawing, 0.5)) element["extinction_ratio"] = decades(drawing, 1, 1e9);
+  } else if (chance(drawing, 0.5)) {
+    element["retardance_deg"] = chance(drawing, 0.3) ? 90 : uniform(drawing, -720, 720);
   } else {
-    element["birefringence"] = decades(random, 1e-9, 1);
-    element["thickness"] = drawing.size * decades(random, 1e-9, 1e-3);
+    element["birefringence"] = decades(drawing, 1e-9, 1);
+    element["thickness"] = drawing.size * decades(drawing, 1e-9, 1e-3);
   }
   return element;
 }
 
 // Models with a reflectance and at most one more parameter.
 Json reflectance_model(Drawing& drawing, DrawnMaterial& drawn, const std::string& model) {
-  Random& random = drawing.random;
   Json surface{{"reflectance", draw_reflectance(drawing, drawn.needs_surface_uv)}};
-  if (model == "oren_nayar") surface["sigma_deg"] = uniform(random, 0, 90);
-  if (model == "coated_diffuse") surface["ior"] = decades(random, 1, 3);
+  if (model == "oren_nayar") surface["sigma_deg"] = uniform(drawing, 0, 90);
+  if (model == "coated_diffuse") surface["ior"] = decades(drawing, 1, 3);
   if (model == "cosine_power" || model == "phong" || model == "retroreflector")
-    surface["exponent"] = chance(random, 0.2) ? 0 : decades(random, 0.1, 1e4);
-  if (model == "cosine_power" && chance(random, 0.5)) surface["reciprocal"] = true;
+    surface["exponent"] = chance(drawing, 0.2) ? 0 : decades(drawing, 0.1, 1e4);
+  if (model == "cosine_power" && chance(drawing, 0.5)) surface["reciprocal"] = true;
   return surface;
 }
 
@@ -184,8 +172,8 @@ Json mixture(Drawing& drawing, DrawnMaterial& drawn) {
 Json model(Drawing& drawing, DrawnMaterial& drawn, const std::string& name) {
   if (name == "dielectric") return dielectric(drawing, drawn);
   if (name == "medium") return medium(drawing);
-  if (name == "conductor") return conductor(drawing.random, drawn);
-  if (name == "film") return {{"layers", layers(drawing.random)}};
+  if (name == "conductor") return conductor(drawing, drawn);
+  if (name == "film") return {{"layers", layers(drawing)}};
   if (name == "thin_glass") return thin_glass(drawing);
   if (name == "polariser" || name == "wave_plate" || name == "depolariser") {
     drawn.needs_surface_uv = name != "depolariser";
@@ -193,17 +181,17 @@ Json model(Drawing& drawing, DrawnMaterial& drawn, const std::string& name) {
   }
   if (name == "principled") return principled(drawing, drawn);
   if (name == "mixture") return mixture(drawing, drawn);
-  if (name == "schlick" && chance(drawing.random, 0.5)) return {{"ior", metal_index(drawing.random)}};
+  if (name == "schlick" && chance(drawing, 0.5)) return {{"ior", metal_index(drawing)}};
   return reflectance_model(drawing, drawn, name);
 }
 
 void add_relief(Drawing& drawing, Json& material, DrawnMaterial& drawn) {
   drawn.needs_surface_uv = true;
-  if (chance(drawing.random, 0.5))
+  if (chance(drawing, 0.5))
     material["normal_map"] = {{"image", draw_image(drawing, {"R", "G", "B"}, 0.51, 1)}};
   else
     material["bump_map"] = {{"image", draw_image(drawing, {"Y"}, -1, 1)},
-                            {"height", drawing.size * decades(drawing.random, 1e-6, 1e-1)}};
+                            {"height", drawing.size * decades(drawing, 1e-6, 1e-1)}};
 }
 
 void add(Drawing& drawing, const std::string& name) {
@@ -213,9 +201,8 @@ void add(Drawing& drawing, const std::string& name) {
   drawn.can_be_mixed = !drawn.has_interior && !has_axis && name != "film" && name != "mixture";
   Json material;
   material[name] = model(drawing, drawn, name);
-  if (drawn.has_interior && chance(drawing.random, 0.5))
-    material["priority"] = integer(drawing.random, -2, 2);
-  if (name != "medium" && drawing.materials.size() > 0 && chance(drawing.random, 0.15)) {
+  if (drawn.has_interior && chance(drawing, 0.5)) material["priority"] = integer(drawing, -2, 2);
+  if (name != "medium" && drawing.materials.size() > 0 && chance(drawing, 0.15)) {
     add_relief(drawing, material, drawn);
     drawn.can_be_mixed = false;
   }
@@ -227,9 +214,9 @@ void add(Drawing& drawing, const std::string& name) {
 
 void draw_materials(Drawing& drawing) {
   add(drawing, "diffuse");  // available as a component of mixtures
-  for (int i = integer(drawing.random, 1, 6); i > 0; --i)
+  for (int i = integer(drawing, 1, 6); i > 0; --i)
     add(drawing,
-        one_of(drawing.random,
+        one_of(drawing,
                {"diffuse",    "dielectric", "dielectric", "dielectric",   "conductor",      "conductor",
                 "medium",     "film",       "mirror",     "oren_nayar",   "coated_diffuse", "thin_glass",
                 "principled", "mixture",    "schlick",    "cosine_power", "phong",          "retroreflector",

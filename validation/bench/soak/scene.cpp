@@ -13,17 +13,16 @@ namespace {
 
 // Draws the unit, the size and the center of the scene.
 void draw_scale_and_position(Drawing& drawing) {
-  Random& random = drawing.random;
   struct Unit {
     const char* name;
     double metres;
   };
-  const Unit unit = one_of(random, {Unit{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}});
+  const Unit unit = one_of(drawing, {Unit{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}});
   drawing.scene["units"] = unit.name;
   drawing.unit_m = unit.metres;
-  drawing.size = decades(random, 1e-2, 1e5);
-  if (chance(random, 0.5))
-    for (double& x : drawing.center) x = drawing.size * signed_decades(random, 1e-3, 1e3);
+  drawing.size = decades(drawing, 1e-2, 1e5);
+  if (chance(drawing, 0.5))
+    for (double& x : drawing.center) x = drawing.size * signed_decades(drawing, 1e-3, 1e3);
 }
 
 Json cross(const Json& a, const Json& b) {
@@ -34,23 +33,16 @@ Json cross(const Json& a, const Json& b) {
 }
 
 Json probe(Drawing& drawing) {
-  Random& random = drawing.random;
   const Json at = draw_position(drawing, 0.6);
-  const double radius = drawing.size * decades(random, 1e-4, 0.2);
-  switch (integer(random, 0, 4)) {
-    case 0:
-    case 1:
-      return {{"at", at}, {"normal", draw_direction(drawing)}};
-    case 2:
-      return {{"disc", {{"center", at}, {"normal", draw_direction(drawing)}, {"radius", radius}}}};
-    case 3:
-      return {{"sphere",
-               {{"center", at}, {"radius", radius}, {"facing", one_of(random, {"outwards", "inwards"})}}}};
-    default:
-      break;
-  }
+  const double radius = drawing.size * decades(drawing, 1e-4, 0.2);
+  const int kind = integer(drawing, 0, 4);
+  if (kind <= 1) return {{"at", at}, {"normal", draw_direction(drawing)}};
+  if (kind == 2) return {{"disc", {{"center", at}, {"normal", draw_direction(drawing)}, {"radius", radius}}}};
+  if (kind == 3)
+    return {{"sphere",
+             {{"center", at}, {"radius", radius}, {"facing", one_of(drawing, {"outwards", "inwards"})}}}};
   Json edge_u = Json::array();
-  for (int axis = 0; axis < 3; ++axis) edge_u.push_back(drawing.size * signed_decades(random, 1e-4, 0.2));
+  for (int axis = 0; axis < 3; ++axis) edge_u.push_back(drawing.size * signed_decades(drawing, 1e-4, 0.2));
   Json edge_v = cross(edge_u, {drawing.size, 0.3 * drawing.size, -0.1 * drawing.size});
   for (Json& length : edge_v) length = length.get<double>() / drawing.size;
   return {{"quad", {{"corner", at}, {"edge_u", edge_u}, {"edge_v", edge_v}}}};
@@ -71,27 +63,25 @@ void add_blades(Random& random, Json& lens) {
 }
 
 Json lens_system(Drawing& drawing) {
-  Random& random = drawing.random;
-  Json lens{{"prescription", one_of(random, {"achromat", "cooke_triplet", "double_gauss", "fisheye",
-                                             "landscape", "tessar"})}};
-  if (chance(random, 0.6))
+  Json lens{{"prescription", one_of(drawing, {"achromat", "cooke_triplet", "double_gauss", "fisheye",
+                                              "landscape", "tessar"})}};
+  if (chance(drawing, 0.6))
     lens["focus_distance"] =
-        chance(random, 0.3) ? Json("infinity") : Json(decades(random, 1, 100) / drawing.unit_m);
-  if (chance(random, 0.5)) lens["f_number"] = decades(random, 10, 64);  // all of them can be opened to f/10
-  if (chance(random, 0.3)) lens["focus"] = "paraxial";
-  if (chance(random, 0.2)) lens["ghosts"] = true;
-  add_blades(random, lens);
+        chance(drawing, 0.3) ? Json("infinity") : Json(decades(drawing, 1, 100) / drawing.unit_m);
+  if (chance(drawing, 0.5)) lens["f_number"] = decades(drawing, 10, 64);  // all of them can be opened to f/10
+  if (chance(drawing, 0.3)) lens["focus"] = "paraxial";
+  if (chance(drawing, 0.2)) lens["ghosts"] = true;
+  add_blades(drawing, lens);
   return lens;
 }
 
 // A thin lens no larger than a tenth of the box.
 Json thin_lens(Drawing& drawing) {
-  Random& random = drawing.random;
-  const double focal_length = drawing.size * decades(random, 1e-4, 0.1);
-  Json lens{{"focal_length", focal_length}, {"f_number", decades(random, 0.5, 64)}};
+  const double focal_length = drawing.size * decades(drawing, 1e-4, 0.1);
+  Json lens{{"focal_length", focal_length}, {"f_number", decades(drawing, 0.5, 64)}};
   lens["focus_distance"] =
-      chance(random, 0.2) ? Json("infinity") : Json(focal_length * decades(random, 1.001, 1e4));
-  add_blades(random, lens);
+      chance(drawing, 0.2) ? Json("infinity") : Json(focal_length * decades(drawing, 1.001, 1e4));
+  add_blades(drawing, lens);
   return lens;
 }
 
@@ -104,42 +94,35 @@ void set_pitch(Drawing& drawing, double film_um) {
 
 // A spectrum with some power in the visible range.
 Json spectrum(Drawing& drawing, double max_value) {
-  Random& random = drawing.random;
   Json curve{{"sum", {draw_curve(drawing, max_value), {{"band", {520, 580}}, {"value", 0.01 * max_value}}}}};
-  if (chance(random, 0.2)) curve = max_value;
-  if (chance(random, 0.2))
+  if (chance(drawing, 0.2)) curve = max_value;
+  if (chance(drawing, 0.2))
     curve = {{"lines",
-              {{{"nm", 546.1}, {"width_nm", decades(random, 1e-3, 1)}, {"power", max_value}},
-               {{"nm", uniform(random, 400, 700)},
-                {"width_nm", decades(random, 1e-3, 10)},
+              {{{"nm", 546.1}, {"width_nm", decades(drawing, 1e-3, 1)}, {"power", max_value}},
+               {{"nm", uniform(drawing, 400, 700)},
+                {"width_nm", decades(drawing, 1e-3, 10)},
                 {"power", max_value}}}}};
   if (drawing.closed) curve = {{"product", {curve, {{"band", {300, kMaxInside_nm}}}}}};
   return curve;
 }
 
 Json relative_emission(Drawing& drawing) {
-  Random& random = drawing.random;
   if (drawing.closed) return {{"spectrum", spectrum(drawing, 1)}};
-  switch (integer(random, 0, 3)) {
-    case 0:
-      return {{"blackbody_K", decades(random, 1500, 1e6)}};
-    case 1:
-      return {{"daylight_K", uniform(random, 4000, 25000)}};
-    case 2:
-      return {{"spectrum", spectrum(drawing, 1)}};
-    default:
-      return {{"illuminant", one_of(random, {"A", "D65", "E", "FL11", "LED-B3"})}};
-  }
+  const int kind = integer(drawing, 0, 3);
+  if (kind == 0) return {{"blackbody_K", decades(drawing, 1500, 1e6)}};
+  if (kind == 1) return {{"daylight_K", uniform(drawing, 4000, 25000)}};
+  if (kind == 2) return {{"spectrum", spectrum(drawing, 1)}};
+  return {{"illuminant", one_of(drawing, {"A", "D65", "E", "FL11", "LED-B3"})}};
 }
 
 Json unpolarised_emission(Drawing& drawing, const std::string& kind) {
-  Random& random = drawing.random;
   // A point or spot light produces the same irradiance at the distance of a scene's size as the others do.
   const double distance = kind == "point" ? drawing.size * drawing.unit_m : 1;
-  const double amount = drawing.brightness * decades(random, 1e-3, 1e3) * distance * distance;
-  if (chance(random, 0.4)) return {{"spectrum", chance(random, 0.05) ? Json(0) : spectrum(drawing, amount)}};
+  const double amount = drawing.brightness * decades(drawing, 1e-3, 1e3) * distance * distance;
+  if (chance(drawing, 0.4))
+    return {{"spectrum", chance(drawing, 0.05) ? Json(0) : spectrum(drawing, amount)}};
   Json emission = relative_emission(drawing);
-  const bool photometric = chance(random, 0.5);
+  const bool photometric = chance(drawing, 0.5);
   if (kind == "area" || kind == "environment")
     emission[photometric ? "luminance" : "radiance"] = amount;
   else if (kind == "point")
@@ -150,53 +133,47 @@ Json unpolarised_emission(Drawing& drawing, const std::string& kind) {
 }
 
 Json area_light(Drawing& drawing) {
-  Random& random = drawing.random;
-  const double r = drawing.size * decades(random, 1e-5, 0.2);
+  const double r = drawing.size * decades(drawing, 1e-5, 0.2);
   Json light;
-  switch (integer(random, 0, 2)) {
-    case 0:
-      light["sphere"] = {{"center", draw_position(drawing, 0.7)}, {"radius", r}};
-      break;
-    case 1:
-      light["disc"] = {
-          {"center", draw_position(drawing, 0.7)}, {"normal", draw_direction(drawing)}, {"radius", r}};
-      break;
-    default:
-      light["quad"] = {{"corner", draw_position(drawing, 0.7)},
-                       {"edge_u", {0, r, 0}},
-                       {"edge_v", {r * decades(random, 1e-3, 1), r * uniform(random, -1, 1), 0}}};
-  }
+  const int kind = integer(drawing, 0, 2);
+  if (kind == 0)
+    light["sphere"] = {{"center", draw_position(drawing, 0.7)}, {"radius", r}};
+  else if (kind == 1)
+    light["disc"] = {
+        {"center", draw_position(drawing, 0.7)}, {"normal", draw_direction(drawing)}, {"radius", r}};
+  else
+    light["quad"] = {{"corner", draw_position(drawing, 0.7)},
+                     {"edge_u", {0, r, 0}},
+                     {"edge_v", {r * decades(drawing, 1e-3, 1), r * uniform(drawing, -1, 1), 0}}};
   light["emission"] = draw_emission(drawing, "area");
   maybe_animate(drawing, light);
-  if (!light.contains("sphere") && chance(random, 0.5)) light["two_sided"] = true;
-  const DrawnMaterial& drawn = one_of(random, drawing.materials);
-  if (!drawn.has_interior && chance(random, 0.4)) light["material"] = drawn.name;
+  if (!light.contains("sphere") && chance(drawing, 0.5)) light["two_sided"] = true;
+  const DrawnMaterial& drawn = one_of(drawing, drawing.materials);
+  if (!drawn.has_interior && chance(drawing, 0.4)) light["material"] = drawn.name;
   return light;
 }
 
 Json point_or_spot_light(Drawing& drawing) {
-  Random& random = drawing.random;
   Json light;
-  if (chance(random, 0.5))
+  if (chance(drawing, 0.5))
     light["point"] = {{"at", draw_position(drawing, 0.7)}};
   else
     light["spot"] = {{"at", draw_position(drawing, 0.7)},
                      {"direction", draw_direction(drawing)},
-                     {"half_angle_deg", decades(random, 0.1, 180)}};
+                     {"half_angle_deg", decades(drawing, 0.1, 180)}};
   light["emission"] = draw_emission(drawing, "point");
   maybe_animate(drawing, light);
   return light;
 }
 
 Json distant_light(Drawing& drawing) {
-  Random& random = drawing.random;
   Json light;
-  if (chance(random, 0.5)) {
+  if (chance(drawing, 0.5)) {
     light["directional"] = {{"towards", draw_direction(drawing)}};
     light["emission"] = draw_emission(drawing, "directional");
   } else {
     light["sun"] = {{"towards", draw_direction(drawing)},
-                    {"angular_diameter_deg", decades(random, 0.01, 60)}};
+                    {"angular_diameter_deg", decades(drawing, 0.01, 60)}};
     light["emission"] = draw_emission(drawing, "sun");
   }
   return light;
@@ -204,10 +181,10 @@ Json distant_light(Drawing& drawing) {
 
 Json environment(Drawing& drawing) {
   Json light{{"environment", Json::object()}, {"emission", draw_emission(drawing, "environment")}};
-  if (chance(drawing.random, 0.4))
+  if (chance(drawing, 0.4))
     light["environment"] = {{"image", draw_image(drawing, {"R", "G", "B"}, 0, 1)},
                             {"up", draw_direction(drawing)},
-                            {"rotate_deg", uniform(drawing.random, -360, 360)}};
+                            {"rotate_deg", uniform(drawing, -360, 360)}};
   return light;
 }
 
@@ -215,7 +192,7 @@ Json environment(Drawing& drawing) {
 Json outside_light(Drawing& drawing) {
   const Json emission{
       {"spectrum", {{"band", {kMaxInside_nm + 50, 1100}}, {"value", 1e3 * drawing.brightness}}}};
-  if (chance(drawing.random, 0.7)) return {{"environment", Json::object()}, {"emission", emission}};
+  if (chance(drawing, 0.7)) return {{"environment", Json::object()}, {"emission", emission}};
   return {{"sun", {{"towards", draw_direction(drawing)}, {"angular_diameter_deg", 60}}},
           {"emission", emission}};
 }
@@ -231,13 +208,12 @@ Json channel_curve(Drawing& drawing) {
 }
 
 Json filters(Drawing& drawing) {
-  Random& random = drawing.random;
   Json stack = Json::array();
-  for (int i = integer(random, 1, 2); i > 0; --i) {
+  for (int i = integer(drawing, 1, 2); i > 0; --i) {
     Json glass{{"sum", {draw_curve(drawing, 0.5), {{"band", {480, 600}}, {"value", 0.1}}}}};
     if (drawing.closed) glass = {{"product", {glass, {{"band", {300, kMaxInside_nm}}}}}};
-    if (chance(random, 0.5))
-      stack.push_back({{"transmittance", glass}, {"effective_index", decades(random, 1, 10)}});
+    if (chance(drawing, 0.5))
+      stack.push_back({{"transmittance", glass}, {"effective_index", decades(drawing, 1, 10)}});
     else
       stack.push_back(glass);
   }
@@ -245,26 +221,24 @@ Json filters(Drawing& drawing) {
 }
 
 Json polariser(Drawing& drawing) {
-  Random& random = drawing.random;
-  Json sheet{{"angle_deg", chance(random, 0.3) ? 90 : uniform(random, -360, 360)}};
-  if (chance(random, 0.5)) sheet["extinction_ratio"] = decades(random, 1, 1e9);
-  if (chance(random, 0.3)) sheet["transmittance"] = uniform(random, 0.1, 1);
+  Json sheet{{"angle_deg", chance(drawing, 0.3) ? 90 : uniform(drawing, -360, 360)}};
+  if (chance(drawing, 0.5)) sheet["extinction_ratio"] = decades(drawing, 1, 1e9);
+  if (chance(drawing, 0.3)) sheet["transmittance"] = uniform(drawing, 0.1, 1);
   return sheet;
 }
 
 // Channels of a moving scene have one common exposure. Probes do not measure polarisation.
 Json channels(Drawing& drawing) {
-  Random& random = drawing.random;
   Json all;
-  for (int i = integer(random, 1, 4); i > 0; --i) {
+  for (int i = integer(drawing, 1, 4); i > 0; --i) {
     Json& channel = all[fmt::format("c{}", i)];
-    if (drawing.signed_response || chance(random, 0.7)) {
+    if (drawing.signed_response || chance(drawing, 0.7)) {
       channel = channel_curve(drawing);
       continue;
     }
     channel = {{"filters", filters(drawing)}};
-    if (!drawing.moves) channel["exposure_s"] = decades(random, 1e-6, kMaxExposure_s);
-    if (!drawing.uses_probe && chance(random, 0.3)) channel["polariser"] = polariser(drawing);
+    if (!drawing.moves) channel["exposure_s"] = decades(drawing, 1e-6, kMaxExposure_s);
+    if (!drawing.uses_probe && chance(drawing, 0.3)) channel["polariser"] = polariser(drawing);
   }
   if (drawing.closed) all[kOutsideChannel] = {{"band", {kMaxInside_nm + 50, 1100}}};
   return all;
@@ -279,34 +253,32 @@ void add_mosaic(Random& random, Json& sensor) {
 }
 
 void draw_response(Drawing& drawing, Json& sensor) {
-  Random& random = drawing.random;
-  const int kind = drawing.closed || drawing.signed_response ? 0 : integer(random, 0, 6);
+  const int kind = drawing.closed || drawing.signed_response ? 0 : integer(drawing, 0, 6);
   if (kind <= 2) {
     sensor["channels"] = channels(drawing);
-    sensor["response"] = one_of(random, {"energy", "quantum"});
-    if (!drawing.closed && chance(random, 0.3)) add_mosaic(random, sensor);
+    sensor["response"] = one_of(drawing, {"energy", "quantum"});
+    if (!drawing.closed && chance(drawing, 0.3)) add_mosaic(drawing, sensor);
   } else if (kind == 3) {
-    sensor["camera"] = one_of(random, {"Canon_EOS_5D_Mark_II", "Nikon_D5100", "Sony_ILCE-9"});
+    sensor["camera"] = one_of(drawing, {"Canon_EOS_5D_Mark_II", "Nikon_D5100", "Sony_ILCE-9"});
   } else if (kind == 4) {
-    const double from = uniform(random, 350, 700);
-    const double step = decades(random, 1, 50);
+    const double from = uniform(drawing, 350, 700);
+    const double step = decades(drawing, 1, 50);
     sensor["spectral"] = {
-        {"from_nm", from}, {"to_nm", from + step * integer(random, 2, 8)}, {"step_nm", step}};
+        {"from_nm", from}, {"to_nm", from + step * integer(drawing, 2, 8)}, {"step_nm", step}};
   } else {
-    sensor["observer"] = one_of(random, {"1931", "1964"});
+    sensor["observer"] = one_of(drawing, {"1931", "1964"});
   }
 }
 
 Json shutter(Drawing& drawing) {
-  Random& random = drawing.random;
   Json shutter{{"open_s", drawing.open_s}};
-  if (chance(random, 0.3)) {
-    shutter["transmission"] = {{0, uniform(random, 0, 1)}, {uniform(random, 0.1, 0.9), 1}, {1, 0}};
-  } else if (chance(random, 0.5)) {
-    shutter["rise_s"] = drawing.exposure_s * uniform(random, 0, 0.5);
-    shutter["fall_s"] = drawing.exposure_s * uniform(random, 0, 0.5);
+  if (chance(drawing, 0.3)) {
+    shutter["transmission"] = {{0, uniform(drawing, 0, 1)}, {uniform(drawing, 0.1, 0.9), 1}, {1, 0}};
+  } else if (chance(drawing, 0.5)) {
+    shutter["rise_s"] = drawing.exposure_s * uniform(drawing, 0, 0.5);
+    shutter["fall_s"] = drawing.exposure_s * uniform(drawing, 0, 0.5);
   }
-  if (chance(random, 0.5)) shutter["row_delay_s"] = drawing.exposure_s * decades(random, 1e-3, 10);
+  if (chance(drawing, 0.5)) shutter["row_delay_s"] = drawing.exposure_s * decades(drawing, 1e-3, 10);
   return shutter;
 }
 
@@ -315,7 +287,7 @@ void measure_polarisation(Drawing& drawing, Json& sensor) {
   const bool behind_polarisers =
       sensor.contains("channels") && sensor["channels"].dump().find("polariser") != std::string::npos;
   if (behind_polarisers) return;
-  if (!sensor.contains("mosaic") && chance(drawing.random, 0.5))
+  if (!sensor.contains("mosaic") && chance(drawing, 0.5))
     sensor["stokes"] = true;
   else if (!sensor.contains("spectral"))
     sensor["polariser"] = polariser(drawing);
@@ -329,13 +301,12 @@ constexpr double kMaxVertexPairs = 3e7;
 
 // Draws the photon settings. Returns a lower bound of the photons per sample.
 int draw_photons(Drawing& drawing, Json& render) {
-  Random& random = drawing.random;
-  const int per_sample = static_cast<int>(decades(random, 1, 2e4));
+  const int per_sample = static_cast<int>(decades(drawing, 1, 2e4));
   render["photons"]["per_sample"] = per_sample;
-  if (chance(random, 0.5)) render["photons"]["radius"] = drawing.size * decades(random, 1e-4, 1);
+  if (chance(drawing, 0.5)) render["photons"]["radius"] = drawing.size * decades(drawing, 1e-4, 1);
   if (render["integrator"] == "photon-map") {
-    render["photons"]["nearest"] = static_cast<int>(decades(random, 1, 1000));
-    render["photons"]["final_gather"] = chance(random, 0.5);
+    render["photons"]["nearest"] = static_cast<int>(decades(drawing, 1, 1000));
+    render["photons"]["final_gather"] = chance(drawing, 0.5);
   }
   return per_sample;
 }
@@ -362,15 +333,15 @@ void draw_strategies(Random& random, Json& render) {
 
 DrawnScene draw_scene(std::uint64_t seed, const std::filesystem::path& folder) {
   Drawing drawing;
-  drawing.random.seed(seed);
+  drawing.seed(seed);
   drawing.folder = folder;
-  drawing.closed = chance(drawing.random, 0.3);
-  drawing.signed_response = chance(drawing.random, 0.1);
-  drawing.brightness = decades(drawing.random, 1e-15, 1e8);
-  drawing.uses_probe = chance(drawing.random, 0.1);
-  drawing.moves = chance(drawing.random, 0.3);
-  drawing.open_s = drawing.moves ? uniform(drawing.random, -5, 5) : 0;
-  drawing.exposure_s = decades(drawing.random, 1e-6, kMaxExposure_s);
+  drawing.closed = chance(drawing, 0.3);
+  drawing.signed_response = chance(drawing, 0.1);
+  drawing.brightness = decades(drawing, 1e-15, 1e8);
+  drawing.uses_probe = chance(drawing, 0.1);
+  drawing.moves = chance(drawing, 0.3);
+  drawing.open_s = drawing.moves ? uniform(drawing, -5, 5) : 0;
+  drawing.exposure_s = decades(drawing, 1e-6, kMaxExposure_s);
   drawing.scene["abbe"] = 1;
   draw_scale_and_position(drawing);
   draw_materials(drawing);
@@ -385,25 +356,24 @@ DrawnScene draw_scene(std::uint64_t seed, const std::filesystem::path& folder) {
 }
 
 void draw_camera(Drawing& drawing) {
-  Random& random = drawing.random;
   Json& camera = drawing.scene["camera"];
   if (drawing.uses_probe) {
     camera["irradiance_probe"] = probe(drawing);
-    if (chance(random, 0.3)) camera["irradiance_probe"]["acceptance_deg"] = decades(random, 0.01, 90);
+    if (chance(drawing, 0.3)) camera["irradiance_probe"]["acceptance_deg"] = decades(drawing, 0.01, 90);
     return;
   }
   camera["from"] = draw_position(drawing, 0.7);
-  camera["to"] = chance(random, 0.8) && !drawing.targets.empty() ? one_of(random, drawing.targets)
-                                                                 : draw_position(drawing, 0.5);
-  camera["up"] = {uniform(random, -1, 1), uniform(random, -1, 1), decades(random, 0.1, 10)};
-  if (chance(random, 0.2)) camera["roll_deg"] = uniform(random, -360, 360);
+  camera["to"] = chance(drawing, 0.8) && !drawing.targets.empty() ? one_of(drawing, drawing.targets)
+                                                                  : draw_position(drawing, 0.5);
+  camera["up"] = {uniform(drawing, -1, 1), uniform(drawing, -1, 1), decades(drawing, 0.1, 10)};
+  if (chance(drawing, 0.2)) camera["roll_deg"] = uniform(drawing, -360, 360);
   maybe_animate(drawing, camera);
-  const double fov_deg = chance(random, 0.8) ? decades(random, 5, 120) : decades(random, 0.05, 170);
-  if (chance(random, 0.6)) {
-    camera["pinhole"] = {{"fov_deg", fov_deg}, {"f_number", decades(random, 0.5, 1e3)}};
-  } else if (holds_a_lens(drawing) && chance(random, 0.5)) {
+  const double fov_deg = chance(drawing, 0.8) ? decades(drawing, 5, 120) : decades(drawing, 0.05, 170);
+  if (chance(drawing, 0.6)) {
+    camera["pinhole"] = {{"fov_deg", fov_deg}, {"f_number", decades(drawing, 0.5, 1e3)}};
+  } else if (holds_a_lens(drawing) && chance(drawing, 0.5)) {
     camera["lens_system"] = lens_system(drawing);
-    set_pitch(drawing, decades(random, 1e3, 2e4));  // inside the image circle of the fisheye
+    set_pitch(drawing, decades(drawing, 1e3, 2e4));  // inside the image circle of the fisheye
   } else {
     camera["thin_lens"] = thin_lens(drawing);
     const double focal_um = 1e6 * drawing.unit_m * camera["thin_lens"]["focal_length"].get<double>();
@@ -412,72 +382,69 @@ void draw_camera(Drawing& drawing) {
 }
 
 Json draw_emission(Drawing& drawing, const std::string& kind) {
-  Random& random = drawing.random;
   Json emission = unpolarised_emission(drawing, kind);
-  if (!chance(random, 0.15)) return emission;
-  if (chance(random, 0.6))
+  if (!chance(drawing, 0.15)) return emission;
+  if (chance(drawing, 0.6))
     emission["polarised"]["axis"] = draw_direction(drawing);
   else
-    emission["polarised"]["circular"] = one_of(random, {"left", "right"});
-  if (chance(random, 0.5)) emission["polarised"]["degree"] = uniform(random, 0, 1);
+    emission["polarised"]["circular"] = one_of(drawing, {"left", "right"});
+  if (chance(drawing, 0.5)) emission["polarised"]["degree"] = uniform(drawing, 0, 1);
   return emission;
 }
 
 void draw_lights(Drawing& drawing) {
-  Random& random = drawing.random;
   Json& lights = drawing.scene["lights"];
   lights = Json::array();
-  for (int i = integer(random, 1, 3); i > 0; --i) {
-    const double kind = uniform(random, 0, 1);
+  for (int i = integer(drawing, 1, 3); i > 0; --i) {
+    const double kind = uniform(drawing, 0, 1);
     lights.push_back(kind < 0.5                      ? area_light(drawing)
                      : drawing.closed || kind < 0.75 ? point_or_spot_light(drawing)
                                                      : distant_light(drawing));
   }
   if (drawing.closed)
     lights.push_back(outside_light(drawing));
-  else if (chance(random, 0.5))
+  else if (chance(drawing, 0.5))
     lights.push_back(environment(drawing));
 }
 
 void draw_sensor(Drawing& drawing) {
-  Random& random = drawing.random;
   Json sensor;
-  sensor["resolution"] = {static_cast<int>(decades(random, 1, 40)), static_cast<int>(decades(random, 1, 40))};
+  sensor["resolution"] = {static_cast<int>(decades(drawing, 1, 40)),
+                          static_cast<int>(decades(drawing, 1, 40))};
   draw_response(drawing, sensor);
   sensor["exposure_s"] = drawing.exposure_s;
-  if (drawing.moves || chance(random, 0.1)) sensor["shutter"] = shutter(drawing);
-  sensor["fill_factor"] = uniform(random, 0.01, 1);
-  if (!drawing.closed && !sensor.contains("spectral") && chance(random, 0.2)) {
-    sensor["lens_transmission"] = uniform(random, 0.1, 1);
+  if (drawing.moves || chance(drawing, 0.1)) sensor["shutter"] = shutter(drawing);
+  sensor["fill_factor"] = uniform(drawing, 0.01, 1);
+  if (!drawing.closed && !sensor.contains("spectral") && chance(drawing, 0.2)) {
+    sensor["lens_transmission"] = uniform(drawing, 0.1, 1);
     sensor["filters"] = filters(drawing);
   }
-  if (!drawing.uses_probe && chance(random, 0.2)) measure_polarisation(drawing, sensor);
+  if (!drawing.uses_probe && chance(drawing, 0.2)) measure_polarisation(drawing, sensor);
   drawing.scene["sensor"] = sensor;
 }
 
 void draw_render(Drawing& drawing) {
-  Random& random = drawing.random;
   const Json& resolution = drawing.scene["sensor"]["resolution"];
   const int pixels = resolution[0].get<int>() * resolution[1].get<int>();
   Json& render = drawing.scene["render"];
   std::vector<std::string> integrators(kIntegratorNames.begin(), kIntegratorNames.end());
   integrators.insert(integrators.end(), {"auto", "auto", "path"});  // the usual ones more often
-  const std::string integrator = one_of(random, integrators);
+  const std::string integrator = one_of(drawing, integrators);
   render["integrator"] = integrator;
-  if (integrator == "auto" && chance(random, 0.1)) render["consistent"] = true;
-  if (integrator == "path" && chance(random, 0.2)) draw_strategies(random, render);
+  if (integrator == "auto" && chance(drawing, 0.1)) render["consistent"] = true;
+  if (integrator == "path" && chance(drawing, 0.2)) draw_strategies(drawing, render);
   const bool gathers = integrator == "sppm" || integrator == "ppm" || integrator == "photon-map";
   const int photons = gathers || integrator == "photon-brute" ? draw_photons(drawing, render) : 0;
   // Photon merging blurs the film, also across the edges of walls.
   if (gathers || integrator == "vcm" || render.contains("consistent")) drawing.closed = false;
-  const double sample_fraction = decades(random, 0.001, 1);
-  if (chance(random, 0.1)) render["polarisation"] = "off";
-  render["seed"] = integer(random, 0, 1 << 30);
-  const bool uses_roulette = chance(random, 0.8);
+  const double sample_fraction = decades(drawing, 0.001, 1);
+  if (chance(drawing, 0.1)) render["polarisation"] = "off";
+  render["seed"] = integer(drawing, 0, 1 << 30);
+  const bool uses_roulette = chance(drawing, 0.8);
   const bool connects = integrator == "bdpt" || integrator == "vcm";
-  if (connects || !uses_roulette || chance(random, 0.5))
-    render["max_depth"] = static_cast<int>(decades(random, 1, uses_roulette && !connects ? 1000 : 60));
-  render["roulette_depth"] = uses_roulette ? integer(random, 0, 12) : -1;
+  if (connects || !uses_roulette || chance(drawing, 0.5))
+    render["max_depth"] = static_cast<int>(decades(drawing, 1, uses_roulette && !connects ? 1000 : 60));
+  render["roulette_depth"] = uses_roulette ? integer(drawing, 0, 12) : -1;
   const int paths = std::max(pixels, photons);
   double max_samples = std::min(kMaxSceneSamples, kMaxPaths / paths);
   max_samples = std::min(max_samples, kMaxVertices / (paths * depth_of(render)));

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -56,8 +55,8 @@ Json rubble(Random& random, double half) {
 }
 
 Json rotation(Drawing& drawing) {
-  const double angle = chance(drawing.random, 0.3) ? one_of(drawing.random, {0.0, 90.0, 45.0, 180.0})
-                                                   : uniform(drawing.random, -360, 360);
+  const double angle =
+      chance(drawing, 0.3) ? one_of(drawing, {0.0, 90.0, 45.0, 180.0}) : uniform(drawing, -360, 360);
   return {{"axis", draw_direction(drawing)}, {"deg", angle}};
 }
 
@@ -69,16 +68,15 @@ Json draw_target(Drawing& drawing) {
 // Transforms a shape of half size `half` around its own origin to a random position in the box.
 Json placed(Drawing& drawing, Json shape) {
   Json transform;
-  if (chance(drawing.random, 0.6)) transform["rotate"] = rotation(drawing);
+  if (chance(drawing, 0.6)) transform["rotate"] = rotation(drawing);
   transform["translate"] = draw_target(drawing);
   shape["transform"] = transform;
   return shape;
 }
 
 Json solid_mesh(Drawing& drawing, double half) {
-  Random& random = drawing.random;
-  const Point sides{half, half * decades(random, 0.05, 1), half * decades(random, 0.05, 1)};
-  return {{"mesh", chance(random, 0.5) ? box_mesh(sides) : octahedron(sides)}};
+  const Point sides{half, half * decades(drawing, 0.05, 1), half * decades(drawing, 0.05, 1)};
+  return {{"mesh", chance(drawing, 0.5) ? box_mesh(sides) : octahedron(sides)}};
 }
 
 Json mesh_file(Drawing& drawing, double half) {
@@ -92,46 +90,43 @@ Json sphere_shape(Drawing& drawing, double half) {
 }
 
 Json flat_shape(Drawing& drawing, double half) {
-  Random& random = drawing.random;
-  if (chance(random, 0.5))
+  if (chance(drawing, 0.5))
     return {
         {"disc", {{"center", draw_target(drawing)}, {"normal", draw_direction(drawing)}, {"radius", half}}}};
   return placed(drawing,
                 {{"quad",
                   {{"corner", {0, 0, 0}},
                    {"edge_u", {half, 0, 0}},
-                   {"edge_v", {half * uniform(random, -1, 1), half * decades(random, 1e-3, 1), 0}}}}});
+                   {"edge_v", {half * uniform(drawing, -1, 1), half * decades(drawing, 1e-3, 1), 0}}}}});
 }
 
 Json prism(Drawing& drawing, double half) {
   return placed(drawing, {{"prism",
-                           {{"apex_deg", uniform(drawing.random, 5, 170)},
+                           {{"apex_deg", uniform(drawing, 5, 170)},
                             {"side", half},
-                            {"length", half * decades(drawing.random, 0.05, 5)}}}});
+                            {"length", half * decades(drawing, 0.05, 5)}}}});
 }
 
 Json wall_material(Drawing& drawing) {
-  Random& random = drawing.random;
-  if (chance(random, 0.15)) return {{"mirror", {{"reflectance", uniform(random, 0, 0.99)}}}};
-  if (chance(random, 0.15)) return {{"conductor", {{"ior", "Al_Rakic"}, {"roughness", 0.2}}}};
-  return {{"diffuse", {{"reflectance", one_of(random, {0.0, 0.5, 0.95, 1.0})}}}};
+  if (chance(drawing, 0.15)) return {{"mirror", {{"reflectance", uniform(drawing, 0, 0.99)}}}};
+  if (chance(drawing, 0.15)) return {{"conductor", {{"ior", "Al_Rakic"}, {"roughness", 0.2}}}};
+  return {{"diffuse", {{"reflectance", one_of(drawing, {0.0, 0.5, 0.95, 1.0})}}}};
 }
 
 // Walls of a closed box: six quads that overlap at their common edges, one mesh, or a sphere.
 void add_walls(Drawing& drawing) {
-  Random& random = drawing.random;
   drawing.scene["materials"]["wall"] = wall_material(drawing);
   Json& shapes = drawing.scene["shapes"];
   const double s = drawing.size;
   const Point& m = drawing.center;
-  const int kind = integer(random, 0, 2);
+  const int kind = integer(drawing, 0, 2);
   if (kind == 0) {
     shapes.push_back({{"sphere", {{"center", m}, {"radius", s * std::sqrt(3)}}}, {"material", "wall"}});
   } else if (kind == 1) {
     shapes.push_back(
         {{"mesh", box_mesh({s, s, s})}, {"material", "wall"}, {"transform", {{"translate", m}}}});
   } else {
-    const double half_edge = s * (1 + decades(random, 1e-4, 1));
+    const double half_edge = s * (1 + decades(drawing, 1e-4, 1));
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (const double sign : {-1, 1}) {
         Point corner{m[0] - half_edge, m[1] - half_edge, m[2] - half_edge};
@@ -146,7 +141,7 @@ void add_walls(Drawing& drawing) {
 }
 
 void add_ground(Drawing& drawing) {
-  const double s = drawing.size * decades(drawing.random, 1, 100);
+  const double s = drawing.size * decades(drawing, 1, 100);
   const Point& m = drawing.center;
   drawing.scene["shapes"].push_back({{"quad",
                                       {{"corner", {m[0] - s, m[1] - s, m[2] - drawing.size}},
@@ -157,40 +152,38 @@ void add_ground(Drawing& drawing) {
 
 // Nested media: concentric spheres, or adjacent boxes of which some coincide.
 void add_nested_media(Drawing& drawing) {
-  Random& random = drawing.random;
   std::vector<DrawnMaterial> solids;
   for (const DrawnMaterial& drawn : drawing.materials)
     if (drawn.has_interior && !drawn.needs_surface_uv) solids.push_back(drawn);
   if (solids.empty()) return;
   Json& shapes = drawing.scene["shapes"];
   const Json center = draw_position(drawing, 0.5);
-  double half = drawing.size * decades(random, 1e-2, 0.7);
-  const bool boxes = chance(random, 0.5);
+  double half = drawing.size * decades(drawing, 1e-2, 0.7);
+  const bool boxes = chance(drawing, 0.5);
   Point shift{0, 0, 0};
-  for (int i = integer(random, 2, 6); i > 0; --i) {
+  for (int i = integer(drawing, 2, 6); i > 0; --i) {
     Point at{};
     for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = center[axis].get<double>() + shift[axis];
     Json shape = boxes ? Json{{"mesh", box_mesh({half, half, half})}, {"transform", {{"translate", at}}}}
                        : Json{{"sphere", {{"center", at}, {"radius", half}}}};
-    shape["material"] = one_of(random, solids).name;
+    shape["material"] = one_of(drawing, solids).name;
     shapes.push_back(shape);
-    if (boxes && chance(random, 0.4))
-      shift[static_cast<std::size_t>(integer(random, 0, 2))] += 2 * half * one_of(random, {-1, 1});
-    else if (chance(random, 0.7))
-      half *= chance(random, 0.3) ? 1 - decades(random, 1e-9, 1e-1) : uniform(random, 0.2, 1);
+    if (boxes && chance(drawing, 0.4))
+      shift[static_cast<std::size_t>(integer(drawing, 0, 2))] += 2 * half * one_of(drawing, {-1, 1});
+    else if (chance(drawing, 0.7))
+      half *= chance(drawing, 0.3) ? 1 - decades(drawing, 1e-9, 1e-1) : uniform(drawing, 0.2, 1);
   }
 }
 
 Json affine(Drawing& drawing) {
-  Random& random = drawing.random;
   Json step;
-  if (chance(random, 0.5))
-    step["scale"] = {decades(random, 0.1, 3), -decades(random, 0.1, 3), decades(random, 0.1, 3)};
+  if (chance(drawing, 0.5))
+    step["scale"] = {decades(drawing, 0.1, 3), -decades(drawing, 0.1, 3), decades(drawing, 0.1, 3)};
   else
-    step["scale"] = decades(random, 0.1, 3);
+    step["scale"] = decades(drawing, 0.1, 3);
   step["rotate"] = rotation(drawing);
   Json offset = Json::array();
-  for (int axis = 0; axis < 3; ++axis) offset.push_back(0.3 * drawing.size * uniform(random, -1, 1));
+  for (int axis = 0; axis < 3; ++axis) offset.push_back(0.3 * drawing.size * uniform(drawing, -1, 1));
   step["translate"] = offset;
   // Transforms about the center of the scene leave the shapes inside it.
   Json to_origin = Json::array();
@@ -200,9 +193,9 @@ Json affine(Drawing& drawing) {
 
 void add_instances(Drawing& drawing) {
   Json& object = drawing.scene["objects"]["thing"]["shapes"];
-  for (int i = integer(drawing.random, 1, 2); i > 0; --i)
-    object.push_back(draw_shape(drawing, one_of(drawing.random, drawing.materials)));
-  for (int i = integer(drawing.random, 1, 4); i > 0; --i) {
+  for (int i = integer(drawing, 1, 2); i > 0; --i)
+    object.push_back(draw_shape(drawing, one_of(drawing, drawing.materials)));
+  for (int i = integer(drawing, 1, 4); i > 0; --i) {
     Json instance{{"instance", {{"of", "thing"}, {"transform", affine(drawing)}}}};
     maybe_animate(drawing, instance);
     drawing.scene["shapes"].push_back(instance);
@@ -233,11 +226,10 @@ void add_fog(Drawing& drawing) {
 }  // namespace
 
 Json draw_shape(Drawing& drawing, const DrawnMaterial& drawn) {
-  Random& random = drawing.random;
-  const bool large = chance(random, 0.7);
-  const double half = drawing.size * decades(random, large ? 0.05 : drawn.has_interior ? 1e-3 : 1e-4, 1);
+  const bool large = chance(drawing, 0.7);
+  const double half = drawing.size * decades(drawing, large ? 0.05 : drawn.has_interior ? 1e-3 : 1e-4, 1);
   Json shape;
-  switch (integer(random, 0, 6)) {
+  switch (integer(drawing, 0, 6)) {
     case 0:
       shape = prism(drawing, half);
       break;
@@ -254,7 +246,7 @@ Json draw_shape(Drawing& drawing, const DrawnMaterial& drawn) {
     case 4:
       shape = drawn.has_interior || drawn.needs_surface_uv
                   ? sphere_shape(drawing, half)
-                  : placed(drawing, {{"mesh", rubble(random, half)}});
+                  : placed(drawing, {{"mesh", rubble(drawing, half)}});
       break;
     default:
       shape = sphere_shape(drawing, half);
@@ -264,27 +256,26 @@ Json draw_shape(Drawing& drawing, const DrawnMaterial& drawn) {
 }
 
 void draw_shapes(Drawing& drawing) {
-  Random& random = drawing.random;
   drawing.scene["shapes"] = Json::array();
   if (drawing.closed)
     add_walls(drawing);
-  else if (chance(random, 0.6))
+  else if (chance(drawing, 0.6))
     add_ground(drawing);
-  for (int i = integer(random, 1, 7); i > 0; --i) {
-    const DrawnMaterial& drawn = one_of(random, drawing.materials);
+  for (int i = integer(drawing, 1, 7); i > 0; --i) {
+    const DrawnMaterial& drawn = one_of(drawing, drawing.materials);
     Json shape = draw_shape(drawing, drawn);
-    if (!drawn.has_interior && chance(random, 0.15)) {
+    if (!drawn.has_interior && chance(drawing, 0.15)) {
       shape["emission"] = draw_emission(drawing, "area");
-      if (!shape.contains("sphere") && !shape.contains("prism") && chance(random, 0.5))
+      if (!shape.contains("sphere") && !shape.contains("prism") && chance(drawing, 0.5))
         shape["two_sided"] = true;
     }
     maybe_animate(drawing, shape);
     drawing.scene["shapes"].push_back(shape);
   }
-  if (chance(random, 0.4)) add_nested_media(drawing);
-  if (chance(random, 0.3)) add_instances(drawing);
-  if (chance(random, 0.1)) add_chart(drawing);
-  if (chance(random, 0.3)) add_fog(drawing);
+  if (chance(drawing, 0.4)) add_nested_media(drawing);
+  if (chance(drawing, 0.3)) add_instances(drawing);
+  if (chance(drawing, 0.1)) add_chart(drawing);
+  if (chance(drawing, 0.3)) add_fog(drawing);
 }
 
 }  // namespace abbe::soak

@@ -4,11 +4,9 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <vector>
 
 namespace abbe {
 
-/// Settings of a soak test.
 struct SoakSettings {
   std::uint64_t paths;           ///< The test ends when this number of paths has been traced.
   std::uint64_t seed;            ///< Seed of the first scene; each further scene adds 1.
@@ -17,12 +15,11 @@ struct SoakSettings {
   std::function<void(const std::string&)> say;
 };
 
-/// Totals of a soak test.
 struct SoakResult {
-  std::uint64_t scenes = 0;    ///< Scenes drawn, with those that failed.
-  std::uint64_t paths = 0;     ///< Paths of the first render of each scene.
-  std::uint64_t rays = 0;      ///< Rays of the same renders.
-  std::uint64_t failures = 0;  ///< Scenes that failed.
+  std::uint64_t scenes = 0;  ///< Scenes drawn, with those that failed.
+  std::uint64_t paths = 0;   ///< Paths of the first render of each scene.
+  std::uint64_t rays = 0;
+  std::uint64_t failures = 0;
 };
 
 /// Draws scenes from the whole scene language and checks each in a process of its own, until `paths` paths
