@@ -330,7 +330,7 @@ TEST(Info, KeysOfTheContract) {
   EXPECT_EQ(found["materials"], 1);
   EXPECT_EQ(found["needs"]["dispersion"], true);
   EXPECT_EQ(found["needs"]["delta_lights"], false);
-  EXPECT_EQ(found["needs"].size(), 15U);
+  EXPECT_EQ(found["needs"].size(), 14U);
   EXPECT_EQ(found["because"]["dispersion"], "shape \"prism\"");
   EXPECT_EQ(found["techniques"], nlohmann::json::parse(R"(["path"])"));
   EXPECT_EQ(found["owned"], nlohmann::json::parse(R"({"path": "E (S|D)* L"})"));

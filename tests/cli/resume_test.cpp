@@ -308,11 +308,11 @@ TEST_F(Checkpoint, TwoWritersOfOneOutputAreOneTooMany) {
 // A film must contain the requested samples and no others.
 TEST(Resume, RefusesACheckpointOfMoreSamplesThanAreAskedFor) {
   const std::string saving =
-      " --checkpoint " + file("more.abbepart") + " -o " + file("more.exr") + " --quiet";
+      " --checkpoint " + file("longer.abbepart") + " -o " + file("longer.exr") + " --quiet";
   ASSERT_EQ(abbe("render " + ball() + saving).code, 0);
   const Outcome fewer = abbe("render " + ball() + saving + " --resume --spp 4");
   EXPECT_EQ(fewer.code, 4);
-  EXPECT_NE(fewer.err.find("more.abbepart: contains samples that are not requested (got 0:8, allowed 0:4)"),
+  EXPECT_NE(fewer.err.find("longer.abbepart: contains samples that are not requested (got 0:8, allowed 0:4)"),
             std::string::npos)
       << fewer.err;
   EXPECT_EQ(abbe("render " + ball() + saving + " --resume").code, 0);
