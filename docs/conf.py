@@ -3,6 +3,7 @@ import pathlib
 import re
 
 from pygments.lexers.javascript import JavascriptLexer
+from pygments.lexers.special import TextLexer
 
 project = "Abbe"
 html_title = "Abbe manual"
@@ -42,4 +43,5 @@ def add_contents(app, name, source):
 
 def setup(app):
     app.add_lexer("jsonc", JavascriptLexer)  # JSON with comments
+    app.add_lexer("csv", TextLexer)
     app.connect("source-read", add_contents)
