@@ -14,7 +14,7 @@ TEST(IntegratorsPage, HasARowForEveryIntegrator) {
     std::ifstream page(test::source_tree() / "docs" / "reference" / "integrators.md");
     int rows = 0;
     for (std::string line; std::getline(page, line);)
-      if (line.starts_with("| `" + name + "` |")) ++rows;
+      if (line.starts_with("| `" + name + "`")) ++rows;
     EXPECT_EQ(rows, 1) << name;
   }
 }

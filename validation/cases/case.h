@@ -78,7 +78,7 @@ enum class Tier {
   never      ///< No run: too little light arrives at any number of samples, or each path takes too long.
 };
 
-/// Mean of another case's film, rendered by one integrator: a cell of the table in `docs/reference/integrators.md`.
+/// Mean of another case's film, rendered by one integrator.
 struct TechniqueMean {
   std::string case_id;
   Integrator integrator;
