@@ -1,5 +1,5 @@
-// Writes docs/reference/scene.schema.json to standard output. With the name of a guide as argument, writes that guide
-// with its key tables regenerated instead. Part of the target `reference`.
+// Writes docs/reference/scene.schema.json to standard output. With the name of a guide as argument, writes
+// that guide with its key tables regenerated instead. Part of the target `reference`.
 #include <cstdio>
 #include <fstream>
 #include <iterator>
