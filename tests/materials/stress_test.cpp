@@ -1,5 +1,5 @@
-// Interfaces in numerically difficult cases, in the float precision of the render. docs/reference/validation.md lists
-// all stress tests.
+// Interfaces in numerically difficult cases, in the float precision of the render.
+// docs/reference/validation.md lists all stress tests.
 #include <gtest/gtest.h>
 
 #include <cmath>
