@@ -2,26 +2,20 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <regex>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/data_directory.h"
 #include "io/exr.h"
 #include "io/picture.h"
 #include "sensor/readout/readout.h"
 #include "tests/cli/program.h"
 #include "tests/cli/runs.h"
-#include "tests/source_tree.h"
-#include "tests/tier.h"
 
 // Films developed to digital numbers, files and pictures.
 
 namespace abbe::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kReadout =
     R"({"gain_e_per_dn": 3, "bits": 12, "offset_dn": 50, "full_well_e": 9000, "read_noise_e": 6,
@@ -305,30 +299,6 @@ TEST(Develop, MergedPartsDevelopLikeTheirWhole) {
   EXPECT_EQ(abbe("render " + text + " --quiet -o " + file("halves.exr")).code, 0);
   developed(file("halves.exr") + " -o " + file("whole.png"));
   EXPECT_EQ(read_file(file("merged.png")), read_file(file("whole.png")));
-}
-
-// The commands of the guide for its chart run at night only, since other tests check their parts.
-bool runs_now(const std::string& command) {
-  const auto tells_of = [&](const char* word) { return command.find(word) != std::string::npos; };
-  return nightly() || !(tells_of("chart") || tells_of("patches") || tells_of("transfer"));
-}
-
-TEST(Develop, TheGuidesCommandsWork) {
-  const std::string text = read_file(source_tree() / "docs/guide/ccd.md");
-  fs::remove(scratch() / "data");
-  fs::create_directory_symlink(data_directory(), scratch() / "data");
-  const std::regex line("(?:^|\n)abbe ([^\n]*)");
-  int count = 0;
-  for (std::sregex_iterator i(text.begin(), text.end(), line), end; i != end; ++i) {
-    if (!runs_now((*i)[1])) continue;
-    ++count;
-    const Outcome run = shell("cd " + file("") + " && " ABBE_BINARY " " + (*i)[1].str());
-    EXPECT_EQ(run.code, 0) << (*i)[1] << '\n' << run.err;
-  }
-  EXPECT_GE(count, 7);
-  for (const char* name : {"ccd.tif", "ccd.png", "coarse.png", "small.tif", "spectral.png", "filtered.tif"})
-    EXPECT_EQ(read_picture(file(name)).channels.empty(), false) << name;
-  EXPECT_EQ(read_exr_parts(file("ccd_parts.exr")).size(), 5U);
 }
 
 }  // namespace
