@@ -49,10 +49,9 @@ def picture(path):
 
 
 class Page(unittest.TestCase):
-    """Runs the commands of PAGE, a path below docs, once. By day BY_DAY, options of a render, are added to every render."""
+    """Runs the commands of PAGE, a path below docs, once."""
 
     PAGE = None
-    BY_DAY = None
 
     @classmethod
     def setUpClass(cls):
@@ -66,11 +65,9 @@ class Page(unittest.TestCase):
         for name in ("docs", "python"):
             (cls.scratch / name).symlink_to(ROOT / name)
         binary = pathlib.Path(os.environ["ABBE_BINARY"])
-        hurried = "" if cls.BY_DAY is None or "ABBE_NIGHTLY" in os.environ else cls.BY_DAY
         program = cls.scratch / "abbe"
         program.write_text(f"""#!/bin/sh
 [ "$1" = python ] && {{ shift; PYTHONPATH={binary.parents[1] / "python"} exec {sys.executable} -B "$@"; }}
-[ "$1" = render ] && set -- "$@" {hurried}
 exec "{binary}" "$@"
 """)
         program.chmod(0o755)
@@ -191,7 +188,6 @@ class guide_prism(Page):
 
 class guide_lens(Page):
     PAGE = "guide/lens.md"
-    BY_DAY = "--spp 1 --integrator path"  # its figures are of traced rays
 
     def test_the_focus_is_where_the_lensmaker_says(self):
         # Schott's data sheet of N-BK7.
