@@ -100,7 +100,8 @@ TEST_F(SchemaTest, TablesHoldTogether) {
 }
 
 TEST_F(SchemaTest, TheSchemaIsThatOfTheTables) {
-  EXPECT_TRUE(file_text(data_directory().parent_path() / "docs" / "reference" / "scene.schema.json") == scene_schema())
+  EXPECT_TRUE(file_text(data_directory().parent_path() / "docs" / "reference" / "scene.schema.json") ==
+              scene_schema())
       << "stale: build the target `reference`";
 }
 
