@@ -62,6 +62,9 @@ std::vector<PatchDifference> compare_chart(const Scene& scene, const Image& imag
   const auto other = reference != nullptr ? read_film(scene, *reference, chromaticity(light)).xyz
                                           : std::optional(integrated);
   const auto& exposed = reference != nullptr ? other : film.xyz;
+  if (exposed && !(sum_of_y(*exposed) > 0))
+    throw Error(ErrorCode::input, scene.charts.front().name,
+                "the film has no light in its patches: it needs the camera and the pixels of the scene");
   const double factor = exposed ? sum_of_y(integrated) / sum_of_y(*exposed) : 1;
   std::vector<PatchDifference> differences;
   for (std::size_t i = 0; i < film.patches.size(); ++i) {

@@ -26,11 +26,11 @@ struct PatchDifference {
 /// film, it compares with the colours integrated over the patches' spectra under the scene's main light.
 /// The films have channels X, Y, Z or R, G, B, interpreted by `film_colors`. One factor scales both films. It
 /// equates the sum of Y over the patches of the reference film (or of `image` without one) with the
-/// integrated sum. A film that is dark in all patches gives colours that are not finite.
+/// integrated sum.
 /// The result has the patches in the order of the chart. `reference` is null without a reference film;
 /// `formula` gives the differences.
-/// Throws Error{input} for a scene without chart or light and for films of different observers. Also throws
-/// the errors of `film_colors` and `read_patches`.
+/// Throws Error{input} for a scene without chart or light, for films of different observers, and if the film
+/// that sets the factor is dark in all patches. Also throws the errors of `film_colors` and `read_patches`.
 [[nodiscard]] std::vector<PatchDifference> compare_chart(const Scene& scene, const Image& image,
                                                          const Image* reference, DeltaE formula);
 

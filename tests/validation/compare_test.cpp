@@ -1,6 +1,7 @@
 // `abbe compare`: maps, patches, formulas.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -214,6 +215,16 @@ TEST(CompareChart, PatchesAreComparedWithTheirSpectra) {
   EXPECT_GT(off[0].delta_e.value(), 1);
   EXPECT_GT(off[0].image.value()[0], off[0].reference.value()[0] + 1);
   EXPECT_LT(off[5].delta_e.value(), 0.2) << "only the common factor moves the others";
+}
+
+// A film of another camera may show none of the patches: no factor then equates their Y.
+TEST(CompareChart, AFilmThatIsDarkInAllPatchesIsAnError) {
+  const Scene scene = chart_scene();
+  Image dark = planted_film(scene, 1);
+  for (ImageChannel& channel : dark.channels) std::ranges::fill(channel.values, 0.0F);
+  EXPECT_EQ(fault([&] { static_cast<void>(compare_chart(scene, dark, nullptr, DeltaE::cie2000)); },
+                  "no light in its patches"),
+            ErrorCode::input);
 }
 
 TEST(CompareChart, PatchesAreSeenByTheFilmsObserver) {
