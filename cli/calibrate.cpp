@@ -13,7 +13,6 @@
 #include "calibration/output/ocio.h"
 #include "cli/calibrate_report.h"
 #include "cli/output_files.h"
-#include "cli/sensor_measurements.h"
 #include "io/atomic_file.h"
 #include "io/diagnostics.h"
 #include "io/error.h"

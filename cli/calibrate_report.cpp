@@ -6,7 +6,6 @@
 
 #include "calibration/fit/resampling.h"
 #include "calibration/output/camera_profile.h"
-#include "cli/sensor_measurements.h"
 #include "report/display_color.h"
 #include "report/plot.h"
 #include "report/svg.h"

@@ -15,7 +15,6 @@
 #include "cli/mpi_group.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
-#include "cli/scene_file.h"
 #include "develop/film_file.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"

@@ -10,6 +10,7 @@
 #include "description/load.h"
 #include "io/inputs.h"
 #include "preview/page_server.h"
+#include "transport/render/choose_integrator.h"
 #include "transport/render/render.h"
 
 namespace abbe::cli {
@@ -71,5 +72,12 @@ struct RenderOptions : SamplingOptions {
 /// set. Throws Error{output} before the render if an output cannot be written, Error{resource} above
 /// `max_memory_bytes`.
 int render(const RenderOptions& options);
+
+/// Report of `abbe info` in plain text. `scene` must have the integrator of `choice`, the result of
+/// `choose_integrator`. Traces pilot rays with one thread per processor.
+[[nodiscard]] std::string describe(const Scene& scene, const IntegratorChoice& choice);
+
+/// Prints a note on the error of the image if the scene turns polarisation off and has paths that it affects.
+void note_polarisation(const Scene& scene);
 
 }  // namespace abbe::cli

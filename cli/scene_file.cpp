@@ -1,4 +1,4 @@
-#include "cli/scene_file.h"
+#include "cli/render.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "cli/sensor_measurements.h"
+#include "cli/calibrate_report.h"
 
 #include <algorithm>
 #include <array>

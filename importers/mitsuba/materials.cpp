@@ -1,4 +1,4 @@
-#include "importers/mitsuba/materials.h"
+#include "importers/mitsuba/scene_objects.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "importers/mitsuba/shapes_and_lights.h"
+#include "importers/mitsuba/scene_objects.h"
 #include "importers/shared/camera.h"
 #include "io/text.h"
 #include "sampling/angle.h"

@@ -1,4 +1,4 @@
-#include "importers/mitsuba/shapes_and_lights.h"
+#include "importers/mitsuba/scene_objects.h"
 
 #include <algorithm>
 #include <array>

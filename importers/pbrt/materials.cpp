@@ -1,4 +1,4 @@
-#include "importers/pbrt/materials.h"
+#include "importers/pbrt/scene_objects.h"
 
 #include <algorithm>
 #include <array>

@@ -9,9 +9,8 @@
 #include <ImathMatrix.h>
 #include <fmt/format.h>
 
-#include "importers/pbrt/materials.h"
+#include "importers/pbrt/scene_objects.h"
 #include "importers/pbrt/scene_options.h"
-#include "importers/pbrt/shapes_and_lights.h"
 #include "importers/pbrt/spectra.h"
 #include "importers/pbrt/syntax.h"
 #include "importers/shared/scene_importer.h"
