@@ -4,8 +4,7 @@ import itertools
 import json
 import pathlib
 
-from common import run
-from plots import document
+from common import document, run
 
 BLUE_NM, GREEN_NM, RED_NM = (440, 460), (530, 540, 550), (600, 610, 620)
 WIDTHS_NM = (10, 40, 70)

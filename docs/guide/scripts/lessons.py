@@ -6,8 +6,7 @@ import shlex
 
 import numpy as np
 
-from common import beside, planes, run, table
-from plots import Axis, Panel, Series, figure
+from common import Axis, Panel, Series, beside, figure, planes, run, table
 
 # A lamp under the ceiling of a closed room, and a lens of 1 m focal length as wide as DIAMETER.
 ROOM = """{"abbe": 1,
