@@ -23,6 +23,13 @@ template <BsdfModel... Models>
   return std::visit([](const auto& model) -> Bsdf { return model; }, either);
 }
 
+/// Part of `SurfaceModel`: what a model with delta lobes must have.
+template <typename Model>
+concept KnowsItsDeltaLobes = !Model::lobes().delta || requires(const Model& model, const SmoothLookup& ray) {
+  model.smooth_power(ray);
+  model.smooth_mueller(ray);
+};
+
 /// Interface of the models in `MaterialModel`. The free functions of these names below describe most of them.
 /// - Required: `lobes`, and `bsdf`, the scattering at a lookup, which may refer to the model. It is a
 ///   `BsdfModel` or a variant of several.
@@ -33,13 +40,10 @@ template <BsdfModel... Models>
 /// - Optional, nullptr or empty if absent: `interior_index`; `clear_index`, the index of a sheet that light
 ///   does not enter but crosses; `medium`; `indices`; `texture_bytes`.
 template <typename Model>
-concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at, const SmoothLookup& ray) {
+concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at) {
   { as_bsdf(model.bsdf(at)) } -> std::same_as<Bsdf>;
   { model.lobes() } -> std::same_as<Lobes>;
-  requires requires {
-    model.smooth_power(ray);
-    model.smooth_mueller(ray);
-  } || !Model::lobes().delta;
+  requires KnowsItsDeltaLobes<Model>;
 };
 
 using MaterialModel =
