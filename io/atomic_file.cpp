@@ -30,6 +30,12 @@ std::string reason() {
   return std::generic_category().message(errno);
 }
 
+// Stem of the temporary files and the lock of a file: its name, or the hash of a long one.
+std::string companion_stem(const std::string& name) {
+  constexpr std::size_t kMaxNameBytes = 200;  // File systems allow 255 bytes.
+  return name.size() > kMaxNameBytes ? sha256(name) : name;
+}
+
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
@@ -88,6 +94,20 @@ bool is_current(int descriptor, const std::filesystem::path& path) {
   return ::fstat(descriptor, &locked_file) == 0 && ::stat(path.c_str(), &named_file) == 0 &&
          locked_file.st_ino == named_file.st_ino && locked_file.st_dev == named_file.st_dev;
 }
+
+// Removes temporary files whose processes no longer run, except those that cannot be removed.
+void remove_leftovers(const fs::path& name) {
+  const fs::path path = destination(name);
+  const std::string prefix = temporary_prefix(path);
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(path), ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(prefix) || entry.path().extension() != path.extension()) continue;
+    const auto process = parse_number(split(std::string_view(name).substr(prefix.size()), '-').front());
+    if (process && ::kill(static_cast<pid_t>(*process), 0) != 0 && errno == ESRCH)
+      fs::remove(entry.path(), ignored);
+  }
+}
 }  // namespace
 
 fs::path destination(const fs::path& path) {
@@ -97,11 +117,6 @@ fs::path destination(const fs::path& path) {
   for (int links = 0; links < kMaxLinks && fs::is_symlink(end, ignored); ++links)
     end = folder_of(end) / fs::read_symlink(end, ignored);
   return end;
-}
-
-std::string companion_stem(const std::string& name) {
-  constexpr std::size_t kMaxNameBytes = 200;  // File systems allow 255 bytes.
-  return name.size() > kMaxNameBytes ? sha256(name) : name;
 }
 
 void write_atomically(const fs::path& name, const std::function<void(const fs::path&)>& write,
@@ -143,19 +158,6 @@ void write_atomically(const fs::path& path, std::span<const std::string_view> pi
 
 void write_atomically(const fs::path& path, std::string_view bytes) {
   write_atomically(path, std::span(&bytes, 1));
-}
-
-void remove_leftovers(const fs::path& name) {
-  const fs::path path = destination(name);
-  const std::string prefix = temporary_prefix(path);
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(path), ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(prefix) || entry.path().extension() != path.extension()) continue;
-    const auto process = parse_number(split(std::string_view(name).substr(prefix.size()), '-').front());
-    if (process && ::kill(static_cast<pid_t>(*process), 0) != 0 && errno == ESRCH)
-      fs::remove(entry.path(), ignored);
-  }
 }
 
 void require_writable(const fs::path& name) {

@@ -13,10 +13,6 @@ namespace abbe {
 /// The file need not exist. A cycle of links returns one of them. Never throws.
 [[nodiscard]] std::filesystem::path destination(const std::filesystem::path& path);
 
-/// Stem for companion files (temporary files, locks) of a file called `name`, a name without folders. It is
-/// `name`, or its SHA-256 if `name` is longer than 200 bytes: file systems limit the length of names.
-[[nodiscard]] std::string companion_stem(const std::string& name);
-
 /// Creates or replaces the `destination` of `path` as a whole or not at all:
 /// - `write` fills a temporary file in the same folder, which is flushed to disk;
 /// - `verify` returns true if the temporary file reads back as intended;
@@ -32,10 +28,6 @@ void write_atomically(const std::filesystem::path& path,
 /// and compared. Throws Error{output} as above.
 void write_atomically(const std::filesystem::path& path, std::span<const std::string_view> pieces);
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
-
-/// Removes temporary files of `path` whose processes no longer run; files that cannot be removed stay. The
-/// caller holds the lock of `path` (`FileLock`).
-void remove_leftovers(const std::filesystem::path& path);
 
 /// Creates and removes a file next to `path` to find out if `path` can be created or replaced. Throws
 /// Error{output} if not:

@@ -53,6 +53,11 @@ class Diagnostics {
   /// `has_errors`.
   void error(const SourcePosition& where, std::string message, ErrorCode code = ErrorCode::scene);
   void warning(const SourcePosition& where, std::string message);
+  /// Adds an error and returns nothing, for functions with an optional result.
+  std::nullopt_t refuse(const SourcePosition& where, std::string message, ErrorCode code = ErrorCode::scene) {
+    error(where, std::move(message), code);
+    return std::nullopt;
+  }
   /// Reports an input that can be used but probably gives a wrong result: an error if strict, otherwise a
   /// warning.
   void error_if_strict(const SourcePosition& where, std::string message);

@@ -76,15 +76,11 @@ Imf::FrameBuffer frame_buffer(const Image& image, const Imath::Box2i& window) {
 bool same_bits(const ExrPart& written, const ExrPart& read) {
   const Image& a = written.image;
   const Image& b = read.image;
-  const bool same_metadata =
-      a.metadata.size() == b.metadata.size() &&
-      std::all_of(a.metadata.begin(), a.metadata.end(), [&b](const auto& entry) {
-        const auto other = b.metadata.find(entry.first);
-        return other != b.metadata.end() && other->second == stored_text(entry.first, entry.second);
-      });
+  std::map<std::string, std::string> stored;
+  for (const auto& [key, value] : a.metadata) stored[key] = stored_text(key, value);
   std::map<std::string_view, const ImageChannel*> by_name;  // There may be thousands of layers.
   for (const ImageChannel& channel : b.channels) by_name[channel.name] = &channel;
-  return written.name == read.name && a.width == b.width && a.height == b.height && same_metadata &&
+  return written.name == read.name && a.width == b.width && a.height == b.height && stored == b.metadata &&
          a.channels.size() == b.channels.size() &&
          std::all_of(a.channels.begin(), a.channels.end(), [&](const ImageChannel& channel) {
            const auto other = by_name.find(channel.name);

@@ -7,8 +7,6 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 

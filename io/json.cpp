@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include <rapidjson/stringbuffer.h>
 #include <rapidjson/writer.h>
 #include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/replace.hpp>
 
 #include "io/text.h"
 
@@ -21,14 +23,18 @@ constexpr unsigned kFlags = rapidjson::kParseIterativeFlag | rapidjson::kParseIn
                             rapidjson::kParseCommentsFlag | rapidjson::kParseTrailingCommasFlag |
                             rapidjson::kParseNumbersAsStringsFlag;
 
+// Token of a JSON pointer as a key, and a key as a token [RFC6901, sec. 3].
 std::string unescaped(std::string_view token) {
-  std::string key;
-  for (std::size_t i = 0; i < token.size(); ++i) {
-    const bool escape =
-        token[i] == '~' && i + 1 < token.size() && (token[i + 1] == '0' || token[i + 1] == '1');
-    key += !escape ? token[i] : token[++i] == '0' ? '~' : '/';
-  }
+  std::string key(token);
+  boost::replace_all(key, "~1", "/");
+  boost::replace_all(key, "~0", "~");
   return key;
+}
+std::string escaped(std::string_view key) {
+  std::string token(key);
+  boost::replace_all(token, "~", "~0");
+  boost::replace_all(token, "/", "~1");
+  return token;
 }
 
 /// Builds the tree from the parser's events. Parsing in place makes strings and numbers point into the copy
@@ -85,34 +91,22 @@ class JsonTreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, J
 
 /// Token that the grammar expects where the parser stopped.
 std::string_view expectation(rapidjson::ParseErrorCode code) {
-  switch (code) {
-    case rapidjson::kParseErrorDocumentRootNotSingular:
-      return "the end of the text";
-    case rapidjson::kParseErrorObjectMissName:
-      return "a key in double quotes or '}'";
-    case rapidjson::kParseErrorObjectMissColon:
-      return "':'";
-    case rapidjson::kParseErrorObjectMissCommaOrCurlyBracket:
-      return "',' or '}'";
-    case rapidjson::kParseErrorArrayMissCommaOrSquareBracket:
-      return "',' or ']'";
-    case rapidjson::kParseErrorStringUnicodeEscapeInvalidHex:
-      return "four hexadecimal digits after \\u";
-    case rapidjson::kParseErrorStringUnicodeSurrogateInvalid:
-      return "a complete surrogate pair";
-    case rapidjson::kParseErrorStringEscapeInvalid:
-      return "a printable character or a JSON escape";
-    case rapidjson::kParseErrorStringMissQuotationMark:
-      return "'\"' at the end of the string";
-    case rapidjson::kParseErrorNumberMissFraction:
-      return "a digit after the decimal point";
-    case rapidjson::kParseErrorNumberMissExponent:
-      return "a digit in the exponent";
-    case rapidjson::kParseErrorUnspecificSyntaxError:
-      return "a complete comment";
-    default:
-      return "a value";
-  }
+  using enum rapidjson::ParseErrorCode;
+  static const std::map<rapidjson::ParseErrorCode, std::string_view> kExpected{
+      {kParseErrorDocumentRootNotSingular, "the end of the text"},
+      {kParseErrorObjectMissName, "a key in double quotes or '}'"},
+      {kParseErrorObjectMissColon, "':'"},
+      {kParseErrorObjectMissCommaOrCurlyBracket, "',' or '}'"},
+      {kParseErrorArrayMissCommaOrSquareBracket, "',' or ']'"},
+      {kParseErrorStringUnicodeEscapeInvalidHex, "four hexadecimal digits after \\u"},
+      {kParseErrorStringUnicodeSurrogateInvalid, "a complete surrogate pair"},
+      {kParseErrorStringEscapeInvalid, "a printable character or a JSON escape"},
+      {kParseErrorStringMissQuotationMark, "'\"' at the end of the string"},
+      {kParseErrorNumberMissFraction, "a digit after the decimal point"},
+      {kParseErrorNumberMissExponent, "a digit in the exponent"},
+      {kParseErrorUnspecificSyntaxError, "a complete comment"}};
+  const auto found = kExpected.find(code);
+  return found == kExpected.end() ? "a value" : found->second;
 }
 
 bool in_word(char c) {
@@ -152,6 +146,7 @@ void report(const rapidjson::ParseResult& result, SourcePosition where, Diagnost
   diagnostics.error(where, fmt::format("expected {} (got {})", expectation(result.Code()), word));
 }
 
+// Parses a text whose value has the JSON pointer `pointer`.
 std::optional<JsonValue> parse(const std::shared_ptr<const SourceText>& source, const std::string& pointer,
                                Diagnostics& diagnostics, MemoryReservation* memory = nullptr) {
   if (memory != nullptr) memory->reserve(source->file, source->text.size());
@@ -173,8 +168,7 @@ std::optional<JsonValue> parse(const std::shared_ptr<const SourceText>& source, 
 /// The array element that a token of a pointer names; created if it is the one after the last. nullptr if the
 /// token is no such index.
 JsonValue* element(JsonValue::Array& array, const std::string& token) {
-  const bool digits = !token.empty() && std::all_of(token.begin(), token.end(),
-                                                    [](unsigned char c) { return std::isdigit(c); });
+  const bool digits = !token.empty() && token.find_first_not_of("0123456789") == std::string::npos;
   const bool leading_zero = token.size() > 1 && token.starts_with('0');
   if (token != "-" && (!digits || leading_zero || token.size() > 9)) return nullptr;
   const std::size_t index = token == "-" ? array.size() : std::stoul(token);
@@ -238,66 +232,32 @@ void write(TextWriter& writer, const JsonValue& json) {
   }
 }
 
-// Writes the value in one line, with blanks after separators.
-void write_line(const JsonValue& json, std::string& out) {
+constexpr std::size_t kOneLine = std::string::npos;
+
+// The value from a column on. A value that does not fit into `width` takes several lines; every value fits
+// into `kOneLine`.
+std::string lines_of(const JsonValue& json, std::size_t column, std::size_t indent, std::size_t width) {
   const auto* array = std::get_if<JsonValue::Array>(&json.value);
   const auto* object = std::get_if<JsonValue::Object>(&json.value);
-  if (!array && !object) {
-    out += to_text(json);
-    return;
-  }
-  const char* separator = "";
-  out += array ? '[' : '{';
+  if (!array && !object) return to_text(json);
+  if (width != kOneLine)
+    if (std::string line = lines_of(json, 0, 0, kOneLine); column + line.size() + 1 <= width)  // 1: a comma.
+      return line;
+  const std::string margin = width == kOneLine ? "" : '\n' + std::string(indent + 2, ' ');
+  std::string out(1, array ? '[' : '{');
   for (std::size_t i = 0; i < (array ? array->size() : object->size()); ++i) {
-    out += std::exchange(separator, ", ");
-    if (object) out += to_text({(*object)[i].first, {}}) + ": ";
-    write_line(array ? (*array)[i] : (*object)[i].second, out);
-  }
-  out += array ? ']' : '}';
-}
-
-// Writes the value from a column on; a value that does not fit takes several lines.
-void write_lines(const JsonValue& json, std::size_t column, std::size_t indent, std::size_t width,
-                 std::string& out) {
-  const auto* array = std::get_if<JsonValue::Array>(&json.value);
-  const auto* object = std::get_if<JsonValue::Object>(&json.value);
-  std::string line;
-  write_line(json, line);
-  if ((!array && !object) || column + line.size() + 1 <= width) {  // One more column for a comma.
-    out += line;
-    return;
-  }
-  const std::string margin(indent + 2, ' ');
-  const std::size_t size = array ? array->size() : object->size();
-  out += array ? "[\n" : "{\n";
-  for (std::size_t i = 0; i < size; ++i) {
     const std::string key = object ? to_text({(*object)[i].first, {}}) + ": " : "";
-    out += margin + key;
-    write_lines(array ? (*array)[i] : (*object)[i].second, margin.size() + key.size(), indent + 2, width,
-                out);
-    out += i + 1 < size ? ",\n" : "\n";
+    out += (i == 0 ? "" : width == kOneLine ? ", " : ",") + margin + key;
+    const JsonValue& element = array ? (*array)[i] : (*object)[i].second;
+    out += lines_of(element, indent + 2 + key.size(), indent + 2, width);
   }
-  out += std::string(indent, ' ') + (array ? ']' : '}');
-}
-
-std::string escaped(std::string_view key) {
-  std::string token;
-  for (const char c : key) {
-    if (c == '~')
-      token += "~0";
-    else if (c == '/')
-      token += "~1";
-    else
-      token += c;
-  }
-  return token;
+  if (width != kOneLine) out += '\n' + std::string(indent, ' ');
+  return out + (array ? ']' : '}');
 }
 }  // namespace
 
 std::string to_lines(const JsonValue& value, std::size_t width) {
-  std::string out;
-  write_lines(value, 0, 0, width, out);
-  return out + '\n';
+  return lines_of(value, 0, 0, width) + '\n';
 }
 
 std::string to_text(const JsonValue& value) {
@@ -358,11 +318,6 @@ ValueTree::ValueTree(std::shared_ptr<const SourceText> source, std::string point
       diagnostics_(diagnostics),
       memory_(memory) {}
 
-void ValueTree::key(std::string name, std::size_t offset) {
-  key_ = std::move(name);
-  key_offset_ = offset;
-}
-
 bool ValueTree::add(decltype(JsonValue::value) value, std::size_t offset) {
   std::string pointer = next_pointer();
   if (pointer.size() > kMaxPointer)
@@ -401,8 +356,7 @@ void ValueTree::report_duplicates(const JsonValue::Object& object) {
   std::vector<const JsonValue::Member*> members;
   members.reserve(object.size());
   for (const auto& member : object) members.push_back(&member);
-  std::sort(members.begin(), members.end(),
-            [](auto* a, auto* b) { return std::tie(a->first, a) < std::tie(b->first, b); });
+  std::ranges::sort(members, [](auto* a, auto* b) { return std::tie(a->first, a) < std::tie(b->first, b); });
   for (std::size_t i = 1; i < members.size(); ++i)
     if (members[i]->first == members[i - 1]->first)
       refuse(members[i]->second.key_offset, fmt::format("duplicate key \"{}\"", members[i]->first),

@@ -64,12 +64,8 @@ struct JsonValue::Member {
 /// Sets the value at a JSON pointer (RFC 6901), such as "/render/samples", in `root`; the empty pointer
 /// replaces `root`. `text` is JSON. Text that is not JSON, such as a bare word or path, is taken as a string.
 /// Missing objects on the path are created. The index after the last element of an array, or "-", appends.
-/// Reports errors of the code `usage`, which name the text `option_name`:
-/// - a pointer that is neither empty nor begins with "/";
-/// - a pointer through a value that is neither an object nor an array;
-/// - a pointer with an invalid index of an array, such as one that would leave a gap;
-/// - text that begins with "[", "{" or a double quote but is not JSON;
-/// - a pointer or text that is not UTF-8.
+/// Reports errors of the code `usage`, which name the text `option_name`, for an invalid pointer, text that
+/// begins with "[", "{" or a double quote but is not JSON, and invalid UTF-8.
 /// After an error the value is not set, but objects on its path may have been created.
 void set_json(JsonValue& root, std::string_view pointer, std::string_view text, Diagnostics& diagnostics,
               std::string_view option_name = "--set");
@@ -81,15 +77,12 @@ struct Override {
   std::string option_name = "--set";  ///< Name of the command-line option or Python keyword, for errors.
 };
 
-/// Builds a `JsonValue` from the events of a parser of any text format. Rejects duplicate keys, nesting
-/// deeper than `kMaxDepth` and JSON pointers longer than `kMaxPointer` bytes. Offsets are bytes from the
-/// start of the source.
+/// Builds a `JsonValue` from the events of a parser. Rejects duplicate keys, nesting deeper than `kMaxDepth`
+/// and JSON pointers longer than `kMaxPointer` bytes. Offsets are bytes from the start of the source.
 class ValueTree {
  public:
   static constexpr std::size_t kMaxDepth = 256;
-  static constexpr std::size_t kMaxPointer =
-      // Limits memory: every value stores its pointer, so long keys would multiply.
-      1024;
+  static constexpr std::size_t kMaxPointer = 1024;  ///< Every value stores its pointer.
 
   /// `pointer` is the JSON pointer of the root; errors have the code `code`. `memory`, if not nullptr,
   /// reserves the memory of the values; then `add` and `open` throw Error{resource} above its limit.
@@ -98,7 +91,10 @@ class ValueTree {
             Diagnostics& diagnostics, MemoryReservation* memory = nullptr);
 
   /// Sets the key of the next value, which must be called before each value in an object.
-  void key(std::string name, std::size_t offset);
+  void key(std::string name, std::size_t offset) {
+    key_ = std::move(name);
+    key_offset_ = offset;
+  }
   /// Adds a null, boolean, number or string to the innermost open container, or as the root. False, with a
   /// report, if it is rejected; parsing must end then.
   bool add(decltype(JsonValue::value) value, std::size_t offset);

@@ -24,9 +24,8 @@ std::string value_text(const JsonValue& value) {
 
 std::nullopt_t mismatch(const JsonValue& value, std::string_view expected, std::string_view allowed,
                         Diagnostics& diagnostics) {
-  diagnostics.error(value.where,
-                    fmt::format("expected {} (got {}, allowed {})", expected, value_text(value), allowed));
-  return std::nullopt;
+  return diagnostics.refuse(
+      value.where, fmt::format("expected {} (got {}, allowed {})", expected, value_text(value), allowed));
 }
 
 }  // namespace
@@ -69,16 +68,10 @@ std::optional<std::size_t> read_choice(const JsonValue& value, std::string_view 
                                        std::span<const char* const> names, Diagnostics& diagnostics) {
   const std::optional<std::string> word = read_string(value, diagnostics);
   if (!word) return std::nullopt;
-  const auto found = std::find(names.begin(), names.end(), *word);
+  const auto found = std::ranges::find(names, *word);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  diagnostics.error(value.where,
-                    unknown_name(kind, *word, std::vector<std::string>(names.begin(), names.end())));
-  return std::nullopt;
-}
-
-std::optional<std::size_t> read_choice(const JsonValue& value, std::string_view kind,
-                                       std::initializer_list<const char*> names, Diagnostics& diagnostics) {
-  return read_choice(value, kind, std::span(names.begin(), names.size()), diagnostics);
+  return diagnostics.refuse(value.where,
+                            unknown_name(kind, *word, std::vector<std::string>(names.begin(), names.end())));
 }
 
 std::optional<bool> read_boolean(const JsonValue& value, Diagnostics& diagnostics) {
@@ -90,11 +83,9 @@ std::optional<std::vector<double>> read_numbers(const JsonValue& value, std::siz
                                                 Diagnostics& diagnostics) {
   const auto* array = std::get_if<JsonValue::Array>(&value.value);
   if (!array) return mismatch(value, "an array of numbers", allowed.text(), diagnostics);
-  if (count != 0 && array->size() != count) {
-    diagnostics.error(value.where,
-                      fmt::format("wrong number of elements (got {}, allowed {})", array->size(), count));
-    return std::nullopt;
-  }
+  if (count != 0 && array->size() != count)
+    return diagnostics.refuse(
+        value.where, fmt::format("wrong number of elements (got {}, allowed {})", array->size(), count));
   std::vector<double> numbers;
   for (const JsonValue& element : *array)
     if (const auto number = read_number(element, allowed, diagnostics)) numbers.push_back(*number);
@@ -131,15 +122,12 @@ std::optional<std::string_view> choose_key(const JsonValue& object, std::span<co
   // A misspelt key is more specific than the absence of all keys.
   if (present.empty())
     for (const auto& [key, member] : *members)
-      if (nearest_name(key, names)) {
-        diagnostics.error(member.key_position(), unknown_name("key", key, names));
-        return std::nullopt;
-      }
-  diagnostics.error(object.where,
-                    fmt::format("expected exactly one key (got {}, allowed {})",
+      if (nearest_name(key, names))
+        return diagnostics.refuse(member.key_position(), unknown_name("key", key, names));
+  return diagnostics.refuse(
+      object.where, fmt::format("expected exactly one key (got {}, allowed {})",
                                 present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", ")),
                                 fmt::join(names, ", ")));
-  return std::nullopt;
 }
 
 }  // namespace abbe

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
@@ -54,9 +53,6 @@ struct Range {
 [[nodiscard]] std::optional<std::size_t> read_choice(const JsonValue& value, std::string_view kind,
                                                      std::span<const char* const> names,
                                                      Diagnostics& diagnostics);
-[[nodiscard]] std::optional<std::size_t> read_choice(const JsonValue& value, std::string_view kind,
-                                                     std::initializer_list<const char*> names,
-                                                     Diagnostics& diagnostics);
 [[nodiscard]] std::optional<bool> read_boolean(const JsonValue& value, Diagnostics& diagnostics);
 /// Reads an array of numbers, each as by `read_number`. Reports every wrong element, and any other length
 /// than `count`; a `count` of 0 accepts every length, also none. Nothing after an error.
@@ -67,7 +63,7 @@ struct Range {
 /// `what`, and returns nullptr.
 [[nodiscard]] const JsonValue::Array* read_array(const JsonValue& value, std::string_view what,
                                                  std::size_t min_size, Diagnostics& diagnostics);
-/// The members of an object. Reports anything else with the code `scene` and returns nullptr.
+/// The members of an object. Reports anything else and returns nullptr.
 [[nodiscard]] const JsonValue::Object* read_object(const JsonValue& value, Diagnostics& diagnostics);
 /// The only one of `keys` that `object` has, as a view of `keys`. Reports if it has none, a misspelt one or
 /// several, and returns nothing. Returns nothing without a report if `object` is not an object.

@@ -1,9 +1,7 @@
 // The picture module: all uses of OpenImageIO, called through io/picture_codec.h.
 #include "io/picture_module.h"
 
-#include <array>
 #include <memory>
-#include <string_view>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

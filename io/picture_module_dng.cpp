@@ -2,11 +2,8 @@
 #include "io/picture_module_dng.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdarg>
 #include <cstring>
-
-#include <tiffio.h>
 
 #include "io/error.h"
 #include "io/image.h"

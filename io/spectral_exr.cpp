@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <regex>
@@ -50,11 +49,8 @@ void require_attribute(const Image& image, const std::string& key, const std::st
 using Component = std::vector<SpectralBand>;
 
 void sort_by_wavelength(Component& bands, const std::string& where) {
-  std::sort(bands.begin(), bands.end(),
-            [](const SpectralBand& a, const SpectralBand& b) { return a.center_nm < b.center_nm; });
-  const auto twice = std::adjacent_find(
-      bands.begin(), bands.end(),
-      [](const SpectralBand& a, const SpectralBand& b) { return a.center_nm == b.center_nm; });
+  std::ranges::sort(bands, {}, &SpectralBand::center_nm);
+  const auto twice = std::ranges::adjacent_find(bands, {}, &SpectralBand::center_nm);
   if (twice != bands.end()) refuse(where, fmt::format("two channels at {} nm", twice->center_nm));
 }
 
@@ -68,11 +64,8 @@ void check_polarisation(const Image& image, const std::array<Component, 4>& stok
         where,
         fmt::format("polarised, but the attribute \"{}\" is missing or invalid (allowed \"left\", \"right\")",
                     kHandednessKey));
-  const auto same_center = [](const SpectralBand& a, const SpectralBand& b) {
-    return a.center_nm == b.center_nm;
-  };
   for (std::size_t i = 1; i < stokes.size(); ++i)
-    if (!std::equal(stokes[0].begin(), stokes[0].end(), stokes[i].begin(), stokes[i].end(), same_center))
+    if (!std::ranges::equal(stokes[0], stokes[i], {}, &SpectralBand::center_nm, &SpectralBand::center_nm))
       refuse(where, fmt::format("S{} has other wavelengths than S0", i));
 }
 
@@ -114,7 +107,7 @@ std::optional<SpectralName> parse_spectral_channel(std::string_view name, const 
 
 bool is_spectral(const Image& image) {
   return image.metadata.contains(kVersionKey) ||
-         std::any_of(image.channels.begin(), image.channels.end(), [](const ImageChannel& channel) {
+         std::ranges::any_of(image.channels, [](const ImageChannel& channel) {
            return looks_spectral(channel.name) && (channel.name[0] == 'T' || channel.name[1] == '0');
          });
 }

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "io/json.h"
 #include "io/text.h"
 
 namespace abbe {

@@ -72,15 +72,13 @@ std::optional<Samples> load_astm_samples(const std::string& name, const SourcePo
   const Curve curve = table_curve(nm, read->samples.values, Outside::clamp);
   if (!check_use(name, read->table.provenance.unit, curve, kReflectanceUse, where, diagnostics))
     return std::nullopt;
-  if (const auto fault = astm_fault(nm)) {
-    diagnostics.error(
+  if (const auto fault = astm_fault(nm))
+    return diagnostics.refuse(
         read->table.position(fault->row),
         fmt::format("ASTM E308 sums need a reflectance measured every 10 or 20 nm at whole steps "
                     "from {} nm (got {})",
                     kAstmRange.low_nm, fault->text),
         ErrorCode::input);
-    return std::nullopt;
-  }
   Samples within;
   for (std::size_t i = 0; i < nm.size(); ++i) {
     const double whole = std::round(nm[i]);
@@ -89,11 +87,11 @@ std::optional<Samples> load_astm_samples(const std::string& name, const SourcePo
     within.values.push_back(read->samples.values[i]);
   }
   if (within.values.size() > 1) return within;
-  diagnostics.error(read->table.where,
-                    fmt::format("ASTM E308 sums need two samples or more from {} to {} nm (got {} to {} nm)",
-                                kAstmRange.low_nm, kAstmRange.high_nm, nm.front(), nm.back()),
-                    ErrorCode::input);
-  return std::nullopt;
+  return diagnostics.refuse(
+      read->table.where,
+      fmt::format("ASTM E308 sums need two samples or more from {} to {} nm (got {} to {} nm)",
+                  kAstmRange.low_nm, kAstmRange.high_nm, nm.front(), nm.back()),
+      ErrorCode::input);
 }
 
 }  // namespace abbe

@@ -8,20 +8,6 @@
 #include "spectral/library.h"
 
 namespace abbe {
-namespace {
-
-bool check_values(const Patch& patch, const Range& allowed, const SourcePosition& where,
-                  Diagnostics& diagnostics) {
-  const Curve& values = patch.reflectance;
-  if (allowed.contains(values.min()) && allowed.contains(values.max())) return true;
-  diagnostics.error(where,
-                    fmt::format("patch \"{}\" is no reflectance (got values in [{}, {}], allowed {})",
-                                patch.name, values.min(), values.max(), allowed.text()),
-                    ErrorCode::input);
-  return false;
-}
-
-}  // namespace
 
 std::optional<Table> read_chart_table(const std::string& name, const SourcePosition& where,
                                       Diagnostics& diagnostics) {
@@ -39,24 +25,26 @@ std::optional<Chart> load_chart(const std::string& name, const SourcePosition& w
                                 Diagnostics& diagnostics, const CurveUse& use, NeededRange needed) {
   const std::optional<Table> table = read_chart_table(name, where, diagnostics);
   if (!table) return std::nullopt;
-  if (!is_spectral(*table)) {
-    diagnostics.error(table->where,
-                      "contains colours, but camera values can be computed only from reflectances",
-                      ErrorCode::input);
-    return std::nullopt;
-  }
-  if (auto fault = unit_fault(name, table->provenance.unit, use.unit)) {
-    diagnostics.error(where, *std::move(fault), ErrorCode::input);
-    return std::nullopt;
-  }
+  if (!is_spectral(*table))
+    return diagnostics.refuse(table->where,
+                              "contains colours, but camera values can be computed only from reflectances",
+                              ErrorCode::input);
+  if (auto fault = unit_fault(name, table->provenance.unit, use.unit))
+    return diagnostics.refuse(where, *std::move(fault), ErrorCode::input);
   Chart chart{name, {}};
   for (const std::string& column : table->columns) {
     if (column.starts_with("wavelength")) continue;
     const std::optional<NamedCurve> curve =
         load_curve(use.folder, name + ":" + column, where, diagnostics, needed);
     if (!curve) return std::nullopt;
-    chart.patches.push_back({column, curve->curve});
-    if (!check_values(chart.patches.back(), use.allowed, where, diagnostics)) return std::nullopt;
+    const Curve& values = curve->curve;
+    if (!use.allowed.contains(values.min()) || !use.allowed.contains(values.max()))
+      return diagnostics.refuse(
+          where,
+          fmt::format("patch \"{}\" is no reflectance (got values in [{}, {}], allowed {})", column,
+                      values.min(), values.max(), use.allowed.text()),
+          ErrorCode::input);
+    chart.patches.push_back({column, values});
   }
   return chart;
 }

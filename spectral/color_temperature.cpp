@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "io/error.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
 
@@ -61,13 +59,7 @@ double nearest_mired(const Uv1960& uv) {
 }
 
 const Curve& scotopic() {
-  static const Curve curve = [] {
-    constexpr const char* kTable = "scotopic_V_prime_cie1951";
-    Diagnostics diagnostics;
-    auto loaded = load_curve("observer", kTable, {}, diagnostics);
-    if (!loaded) throw Error(ErrorCode::input, kTable, diagnostics.text());
-    return std::move(loaded->curve);
-  }();
+  static const Curve curve = shipped_curve("observer", "scotopic_V_prime_cie1951");
   return curve;
 }
 

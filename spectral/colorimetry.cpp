@@ -1,16 +1,10 @@
 #include "spectral/colorimetry.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "io/error.h"
-#include "spectral/curve.h"
 #include "spectral/library.h"
 
 namespace abbe {
@@ -18,13 +12,8 @@ namespace abbe {
 namespace {
 
 ColorMatching load_color_matching(const std::string& table, const std::string& suffix) {
-  const auto load = [&table](const std::string& column) {
-    Diagnostics diagnostics;
-    auto curve = load_curve("observer", table + ":" + column, {}, diagnostics);
-    if (!curve) throw Error(ErrorCode::input, table, diagnostics.text());
-    return std::move(curve->curve);
-  };
-  return {load("xbar" + suffix), load("ybar" + suffix), load("zbar" + suffix)};
+  const auto load = [&](const char* column) { return shipped_curve("observer", table + column + suffix); };
+  return {load(":xbar"), load(":ybar"), load(":zbar")};
 }
 
 // Tolerance [nm] for a knot at a whole nanometre, and for two knots that form a jump.
@@ -61,10 +50,6 @@ bool is_resolved_at_1_nm(const Curve& curve, const Curve& weight, SumRange range
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm)
     if (std::abs(curve(nm) * weight(nm)) >= jump / kSmall) return true;
   return false;
-}
-
-bool are_resolved_at_1_nm(const Curve& a, const Curve& b, SumRange range) {
-  return is_resolved_at_1_nm(a, b, range) && is_resolved_at_1_nm(b, a, range);
 }
 
 // Sum of the three colour-matching functions of an observer.
@@ -141,15 +126,11 @@ const ColorMatching& color_matching(Observer observer) {
 }
 
 double sum_product(const Curve& a, const Curve& b, SumRange range) {
-  if (!are_resolved_at_1_nm(a, b, range))
-    return integral_of_product(a, b, range.low_nm - kHalfStepNm, range.high_nm + kHalfStepNm);
-  double total = 0;
-  for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm);
-  return total;
+  return sum_product(a, b, equal_energy(), range);
 }
 
 double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range) {
-  if (!are_resolved_at_1_nm(a, b, range))
+  if (!is_resolved_at_1_nm(a, b, range) || !is_resolved_at_1_nm(b, a, range))
     return integral_of_product(a, b, c, range.low_nm - kHalfStepNm, range.high_nm + kHalfStepNm);
   const Curve resampled = resampled_at_1_nm(c, equal_energy(), range);
   double total = 0;

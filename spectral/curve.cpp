@@ -1,12 +1,9 @@
 #include "spectral/curve.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <utility>
 
 #include "io/error.h"
 
@@ -17,25 +14,20 @@ constexpr int kCells = kMaxWavelengthNm - kMinWavelengthNm;
 constexpr float kLow = kMinWavelengthNm;
 constexpr float kHigh = kMaxWavelengthNm;
 
-struct ByWavelength {
-  bool operator()(const Knot& knot, double wavelength_nm) const { return knot.wavelength_nm < wavelength_nm; }
-  bool operator()(double wavelength_nm, const Knot& knot) const { return wavelength_nm < knot.wavelength_nm; }
-};
-
 double between(const Knot& a, const Knot& b, double wavelength_nm) {
   return a.value +
          (b.value - a.value) * ((wavelength_nm - a.wavelength_nm) / (b.wavelength_nm - a.wavelength_nm));
 }
 
 double left_limit(std::span<const Knot> knots, double wavelength_nm) {
-  const auto at = std::lower_bound(knots.begin(), knots.end(), wavelength_nm, ByWavelength{});
+  const auto at = std::ranges::lower_bound(knots, wavelength_nm, {}, &Knot::wavelength_nm);
   if (at == knots.end()) return knots.back().value;
   if (at == knots.begin() || at->wavelength_nm == wavelength_nm) return at->value;
   return between(*std::prev(at), *at, wavelength_nm);
 }
 
 double right_limit(std::span<const Knot> knots, double wavelength_nm) {
-  const auto after = std::upper_bound(knots.begin(), knots.end(), wavelength_nm, ByWavelength{});
+  const auto after = std::ranges::upper_bound(knots, wavelength_nm, {}, &Knot::wavelength_nm);
   if (after == knots.begin()) return knots.front().value;
   const Knot& before = *std::prev(after);
   if (after == knots.end() || before.wavelength_nm == wavelength_nm) return before.value;
@@ -52,9 +44,8 @@ std::vector<Knot> cut_to_range(std::span<const Knot> knots) {
   std::vector<Knot> cut;
   cut.reserve(knots.size() + 2);
   cut.push_back({kMinWavelengthNm, right_limit(knots, kMinWavelengthNm)});
-  for (const Knot& knot : knots) {
+  for (const Knot& knot : knots)
     if (knot.wavelength_nm > kMinWavelengthNm && knot.wavelength_nm < kMaxWavelengthNm) cut.push_back(knot);
-  }
   append(cut, kMaxWavelengthNm, left_limit(knots, kMaxWavelengthNm), right_limit(knots, kMaxWavelengthNm));
   return cut;
 }
@@ -63,11 +54,9 @@ void require_valid(std::span<const Knot> knots) {
   const auto finite = [](const Knot& knot) {
     return std::isfinite(knot.wavelength_nm) && std::isfinite(knot.value);
   };
-  const auto later = [](const Knot& a, const Knot& b) { return a.wavelength_nm < b.wavelength_nm; };
-  if (knots.empty() || !std::all_of(knots.begin(), knots.end(), finite) ||
-      !std::is_sorted(knots.begin(), knots.end(), later)) {
+  if (knots.empty() || !std::ranges::all_of(knots, finite) ||
+      !std::ranges::is_sorted(knots, {}, &Knot::wavelength_nm))
     throw Error(ErrorCode::internal, "curve", "knots must be present, finite and sorted by wavelength");
-  }
 }
 
 /// Distance of the wavelengths from the lower end of the range; wavelengths outside it are clamped.
@@ -143,8 +132,7 @@ Curve::Curve(double value) : Curve(std::vector<Knot>{{kMinWavelengthNm, value}})
 Curve::Curve(std::vector<Knot> knots) {
   require_valid(knots);
   knots_ = cut_to_range(knots);
-  const auto [low, high] = std::minmax_element(
-      knots_.begin(), knots_.end(), [](const Knot& a, const Knot& b) { return a.value < b.value; });
+  const auto [low, high] = std::ranges::minmax_element(knots_, {}, &Knot::value);
   min_ = low->value;
   max_ = high->value;
   cells_.reserve(kCells + 1);
@@ -171,8 +159,9 @@ double Curve::operator()(double wavelength_nm) const {
   const auto i = static_cast<std::size_t>(offset);
   const Cell& cell = cells_[i];
   if (!cell.searched) return cell.value + cell.slope * (offset - static_cast<double>(i));
-  const auto after = std::upper_bound(knots_.begin() + cell.first, knots_.begin() + cells_[i + 1].first + 1,
-                                      clamped, ByWavelength{});
+  const auto after =
+      std::ranges::upper_bound(knots_.begin() + cell.first, knots_.begin() + cells_[i + 1].first + 1, clamped,
+                               {}, &Knot::wavelength_nm);
   return between(*std::prev(after), *after, clamped);
 }
 
@@ -256,10 +245,9 @@ Curve product(const Curve& a, const Curve& b) {
 
 Curve sum(const Curve& a, const Curve& b) {
   std::vector<Knot> knots;
-  for (const double nm : breakpoints(a, b)) {
+  for (const double nm : breakpoints(a, b))
     append(knots, nm, left_limit(a.knots(), nm) + left_limit(b.knots(), nm),
            right_limit(a.knots(), nm) + right_limit(b.knots(), nm));
-  }
   return Curve(std::move(knots));
 }
 
@@ -270,19 +258,16 @@ Curve scaled(const Curve& curve, double factor) {
 }
 
 Curve table_curve(std::span<const double> wavelengths_nm, std::span<const double> values, Outside outside) {
-  const bool ascending = std::adjacent_find(wavelengths_nm.begin(), wavelengths_nm.end(),
-                                            std::greater_equal<>{}) == wavelengths_nm.end();
-  if (wavelengths_nm.empty() || wavelengths_nm.size() != values.size() || !ascending) {
+  if (wavelengths_nm.empty() || wavelengths_nm.size() != values.size() ||
+      std::ranges::adjacent_find(wavelengths_nm, std::greater_equal<>{}) != wavelengths_nm.end())
     throw Error(ErrorCode::internal, "table", "needs one value per wavelength, strictly ascending");
-  }
   std::vector<Knot> knots;
   knots.reserve(values.size() + 2);
   if (outside == Outside::zero) knots.push_back({wavelengths_nm.front(), 0});
   for (std::size_t i = 0; i < values.size(); ++i) knots.push_back({wavelengths_nm[i], values[i]});
-  if (outside == Outside::zero) {
-    // The last row applies at its own wavelength, so the fall to zero comes at the next representable number.
+  // The last row applies at its own wavelength, so the fall to zero comes at the next representable number.
+  if (outside == Outside::zero)
     knots.push_back({std::nextafter(wavelengths_nm.back(), std::numeric_limits<double>::max()), 0});
-  }
   return Curve(std::move(knots));
 }
 

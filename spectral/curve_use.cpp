@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <optional>
 #include <span>
 #include <sstream>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -275,6 +273,17 @@ TableUnit unit_of_names(const std::vector<std::string>& parts) {
         return {Kind::fraction};
   return {};
 }
+
+// True if the quantity of the line mentions photons or quantum efficiencies, or a unit after it divides by
+// photons. Lines that mention energy declare no response per photon.
+bool declares_response_per_photon(std::string_view line) {
+  const std::string small = lower_case(line.substr(0, line.find(';')));
+  const std::vector<std::string> parts = parts_of(small);
+  if (parts.empty() || contains(small, "energy")) return false;
+  const std::string& quantity = parts.front();
+  return contains(quantity, "photon") || contains(quantity, "quantum") || contains(" " + quantity, " qe") ||
+         contains(small, "/photon") || contains(small, "per photon");
+}
 }  // namespace
 
 std::optional<std::string> unit_fault(std::string_view name, std::string_view unit, CurveUnit needed,
@@ -331,15 +340,6 @@ TableUnit table_unit(std::string_view line) {
   for (const std::string& part : parts)
     if (const auto unit = unit_of(part)) return *unit;
   return unit_of_names(parts);
-}
-
-bool declares_response_per_photon(std::string_view line) {
-  const std::string small = lower_case(line.substr(0, line.find(';')));
-  const std::vector<std::string> parts = parts_of(small);
-  if (parts.empty() || contains(small, "energy")) return false;
-  const std::string& quantity = parts.front();
-  return contains(quantity, "photon") || contains(quantity, "quantum") || contains(" " + quantity, " qe") ||
-         contains(small, "/photon") || contains(small, "per photon");
 }
 
 }  // namespace abbe

@@ -37,10 +37,6 @@ struct TableUnit {
 /// such as "decadic".
 [[nodiscard]] TableUnit table_unit(std::string_view line);
 
-/// True if the line declares a response per photon: its quantity mentions photons or quantum efficiencies, or
-/// a unit after it divides by photons. Lines that mention energy declare none.
-[[nodiscard]] bool declares_response_per_photon(std::string_view line);
-
 /// Quantity that a curve must have; a table can declare another one.
 /// - `any`: no check.
 /// - `fraction`: a fraction of 1, and neither percent, decibels nor densities.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <functional>
 #include <iterator>
 #include <span>
@@ -12,10 +11,7 @@
 #include <fmt/format.h>
 
 #include "io/data_directory.h"
-#include "io/json_values.h"
-#include "io/table.h"
 #include "io/text.h"
-#include "spectral/curve.h"
 #include "spectral/curve_use.h"
 #include "spectral/sources.h"
 
@@ -35,53 +31,40 @@ TableOrigin origin(const std::filesystem::path& path) {
 std::optional<std::vector<double>> wavelengths(const Table& table, Diagnostics& diagnostics) {
   const auto nm = table.column("wavelength_nm");
   const auto um = table.column("wavelength_um");
-  if (!nm && !um) {
-    diagnostics.error(table.where, "no column \"wavelength_nm\"", ErrorCode::input);
-    return std::nullopt;
-  }
-  if (nm != 0 && um != 0) {
-    diagnostics.error(
+  if (!nm && !um) return diagnostics.refuse(table.where, "no column \"wavelength_nm\"", ErrorCode::input);
+  if (nm != 0 && um != 0)
+    return diagnostics.refuse(
         table.where,
         fmt::format("first column \"{}\" (allowed wavelength_nm, wavelength_um)", table.columns.front()),
         ErrorCode::input);
-    return std::nullopt;
-  }
   auto values = table.numbers(nm ? *nm : *um, diagnostics);
   if (!values) return std::nullopt;
-  if (!nm) {
+  if (!nm)
     for (double& value : *values) value *= kNmPerUm;
-  }
-  if (values->size() < 2) {
-    diagnostics.error(table.where, fmt::format("needs at least two samples (got {})", values->size()),
-                      ErrorCode::input);
-    return std::nullopt;
-  }
-  const auto fall = std::adjacent_find(values->begin(), values->end(), std::greater_equal<>{});
-  if (fall != values->end()) {
-    diagnostics.error(table.position(static_cast<std::size_t>(fall - values->begin()) + 1),
-                      fmt::format("wavelengths must ascend (got {} nm after {} nm)", *std::next(fall), *fall),
-                      ErrorCode::input);
-    return std::nullopt;
-  }
-  if (auto fault = range_fault(values->front(), values->back())) {
-    diagnostics.error(table.where, std::move(*fault), ErrorCode::input);
-    return std::nullopt;
-  }
+  if (values->size() < 2)
+    return diagnostics.refuse(table.where, fmt::format("needs at least two samples (got {})", values->size()),
+                              ErrorCode::input);
+  const auto fall = std::ranges::adjacent_find(*values, std::greater_equal<>{});
+  if (fall != values->end())
+    return diagnostics.refuse(
+        table.position(static_cast<std::size_t>(fall - values->begin()) + 1),
+        fmt::format("wavelengths must ascend (got {} nm after {} nm)", *std::next(fall), *fall),
+        ErrorCode::input);
+  if (auto fault = range_fault(values->front(), values->back()))
+    return diagnostics.refuse(table.where, std::move(*fault), ErrorCode::input);
   return values;
 }
 
 std::optional<std::size_t> value_column(const Table& table, const std::string& name,
                                         Diagnostics& diagnostics) {
   std::vector<std::string> names;
-  std::copy_if(table.columns.begin(), table.columns.end(), std::back_inserter(names),
-               [](const std::string& column) { return !column.starts_with("wavelength_"); });
-  if (name.empty()) {
-    diagnostics.error(
+  std::ranges::copy_if(table.columns, std::back_inserter(names),
+                       [](const std::string& column) { return !column.starts_with("wavelength_"); });
+  if (name.empty())
+    return diagnostics.refuse(
         table.where,
         fmt::format("has several curves, name one as file:column (allowed {})", fmt::join(names, ", ")),
         ErrorCode::input);
-    return std::nullopt;
-  }
   const auto column = table.column(name);
   if (!column) diagnostics.error(table.where, unknown_name("column", name, names), ErrorCode::input);
   return column;
@@ -129,15 +112,14 @@ std::optional<Interpolation> interpolation_of(const Table& table, std::span<cons
   const auto line = key_line(table, "interpolation");
   if (!line) return Interpolation::linear;
   const std::vector<std::string> names{"linear", "sprague", "cubic"};
-  const auto name = std::find(names.begin(), names.end(), line->value);
-  if (name == names.end()) {
-    diagnostics.error(line->where, unknown_name("interpolation", line->value, names), ErrorCode::input);
-    return std::nullopt;
-  }
+  const auto name = std::ranges::find(names, line->value);
+  if (name == names.end())
+    return diagnostics.refuse(line->where, unknown_name("interpolation", line->value, names),
+                              ErrorCode::input);
   const auto rule = static_cast<Interpolation>(name - names.begin());
   const auto fault = interpolation_fault(wavelengths_nm, rule);
   if (!fault) return rule;
-  diagnostics.error(
+  return diagnostics.refuse(
       table.position(fault->row),
       rule == Interpolation::sprague
           ? fmt::format("\"interpolation: sprague\" needs six samples or more in even steps (got "
@@ -145,37 +127,28 @@ std::optional<Interpolation> interpolation_of(const Table& table, std::span<cons
                         fault->text)
           : fmt::format("\"interpolation: cubic\" needs more samples (got {})", fault->text),
       ErrorCode::input);
-  return std::nullopt;
 }
 
 /// Range of the quantity of a table. All samples must lie in it.
 std::optional<Range> value_range(const Table& table, std::span<const double> values,
                                  Diagnostics& diagnostics) {
   const auto line = key_line(table, "value_range");
-  const bool signed_values = std::any_of(values.begin(), values.end(), [](double v) { return v < 0; });
+  const bool signed_values = std::ranges::any_of(values, [](double v) { return v < 0; });
   if (!line) return signed_values ? Range::any() : Range::non_negative();
   std::vector<std::optional<double>> ends;
   for (const std::string& end : split(line->value, ',')) ends.push_back(parse_number(end));
-  if (ends.size() != 2 || !ends[0] || !ends[1] || !(*ends[0] < *ends[1])) {
-    diagnostics.error(
+  if (ends.size() != 2 || !ends[0] || !ends[1] || !(*ends[0] < *ends[1]))
+    return diagnostics.refuse(
         line->where,
         fmt::format("malformed range (got \"{}\", allowed two ascending numbers, as \"0, 1\")", line->value),
         ErrorCode::input);
-    return std::nullopt;
-  }
   const Range range{*ends[0], *ends[1]};
-  const auto out_of_range =
-      std::find_if(values.begin(), values.end(), [&](double v) { return !range.contains(v); });
+  const auto out_of_range = std::ranges::find_if(values, [&](double v) { return !range.contains(v); });
   if (out_of_range == values.end()) return range;
-  diagnostics.error(
+  return diagnostics.refuse(
       table.position(static_cast<std::size_t>(out_of_range - values.begin())),
       fmt::format("value outside the declared range (got {}, allowed {})", *out_of_range, range.text()),
       ErrorCode::input);
-  return std::nullopt;
-}
-
-bool covers(const NamedCurve& curve, const NeededRange& needed) {
-  return curve.low_nm <= needed.low_nm && curve.high_nm >= needed.high_nm;
 }
 
 /// A table of a folder, and the name of one of its columns.
@@ -201,12 +174,10 @@ double illuminant_a(double wavelength_nm) {
 
 void extend_a(NamedCurve& a) {
   std::vector<Knot> knots;
-  for (const Knot& knot : a.curve.knots()) {
+  for (const Knot& knot : a.curve.knots())
     if (knot.wavelength_nm <= a.high_nm) knots.push_back(knot);
-  }
-  for (int nm = static_cast<int>(a.high_nm) + 1; nm <= kMaxWavelengthNm; ++nm) {
+  for (int nm = static_cast<int>(a.high_nm) + 1; nm <= kMaxWavelengthNm; ++nm)
     knots.push_back({static_cast<double>(nm), illuminant_a(nm)});
-  }
   a.curve = Curve(std::move(knots));
   a.high_nm = kMaxWavelengthNm;
 }
@@ -267,21 +238,16 @@ NeededRange support_range(const Curve& curve) {
           (after == knots.end() ? std::prev(after) : after)->wavelength_nm};
 }
 
-struct Integral {
-  double value = 0;
-  std::size_t pieces = 0;
-};
-
 // Integral of |a b| over a range; exact unless a factor changes sign between two knots.
-Integral magnitude_of_product(const Curve& a, const Curve& b, double low_nm, double high_nm) {
+double magnitude_of_product(const Curve& a, const Curve& b, double low_nm, double high_nm) {
   CurveCursor piece_a(a, low_nm);
   CurveCursor piece_b(b, low_nm);
   const auto magnitude = [&](double nm) { return std::abs(piece_a(nm) * piece_b(nm)); };
-  Integral sum;
-  for (double from = low_nm; from < high_nm; ++sum.pieces) {
+  double sum = 0;
+  for (double from = low_nm; from < high_nm;) {
     const double to = std::min({piece_a.end_nm(), piece_b.end_nm(), high_nm});
     // Simpson's rule is exact for the product of two lines.
-    sum.value += (to - from) / 6 * (magnitude(from) + 4 * magnitude((from + to) / 2) + magnitude(to));
+    sum += (to - from) / 6 * (magnitude(from) + 4 * magnitude((from + to) / 2) + magnitude(to));
     piece_a.advance_to(to);
     piece_b.advance_to(to);
     from = to;
@@ -297,6 +263,13 @@ std::optional<NamedCurve> load_curve(std::string_view folder, const std::string&
   auto curve = read ? curve_of(read->table, read->column, name, diagnostics, needed) : std::nullopt;
   if (curve && folder == kIlluminantUse.folder) extend_by_definition(name, *curve);
   return curve;
+}
+
+Curve shipped_curve(std::string_view folder, const std::string& name) {
+  Diagnostics diagnostics;
+  auto loaded = load_curve(folder, name, {}, diagnostics);
+  if (!loaded) throw Error(ErrorCode::input, name, diagnostics.text());
+  return std::move(loaded->curve);
 }
 
 std::optional<TableSamples> load_samples(std::string_view folder, const std::string& name,
@@ -321,8 +294,7 @@ std::optional<std::string> value_fault(const Curve& curve, const Range& allowed)
 std::optional<NamedCurve> curve_of(const Table& table, const std::string& column, const std::string& name,
                                    Diagnostics& diagnostics, NeededRange needed) {
   const auto samples = samples_of(table, column, diagnostics);
-  if (!samples) return std::nullopt;
-  if (!check_keys(table, diagnostics)) return std::nullopt;
+  if (!samples || !check_keys(table, diagnostics)) return std::nullopt;
   const auto rule = interpolation_of(table, samples->wavelengths_nm, diagnostics);
   const auto range = value_range(table, samples->values, diagnostics);
   if (!rule || !range) return std::nullopt;
@@ -334,16 +306,14 @@ std::optional<NamedCurve> curve_of(const Table& table, const std::string& column
                     samples->wavelengths_nm.back(),
                     table_curve(fine.wavelengths_nm, fine.values, table.outside),
                     table.outside};
-  if (table.outside == Outside::error && !covers(result, needed)) {
-    diagnostics.error(
-        table.where,
-        fmt::format("covers {} to {} nm, but {} to {} nm are needed (add a line \"# outside: clamp\" or "
-                    "\"# outside: zero\" to extrapolate)",
-                    result.low_nm, result.high_nm, needed.low_nm, needed.high_nm),
-        ErrorCode::input);
-    return std::nullopt;
-  }
-  return result;
+  const bool is_covered = result.low_nm <= needed.low_nm && result.high_nm >= needed.high_nm;
+  if (table.outside != Outside::error || is_covered) return result;
+  return diagnostics.refuse(
+      table.where,
+      fmt::format("covers {} to {} nm, but {} to {} nm are needed (add a line \"# outside: clamp\" or "
+                  "\"# outside: zero\" to extrapolate)",
+                  result.low_nm, result.high_nm, needed.low_nm, needed.high_nm),
+      ErrorCode::input);
 }
 
 std::optional<std::string> range_fault(double low_nm, double high_nm) {
@@ -382,16 +352,14 @@ std::optional<NamedCurve> load_illuminant(const std::string& name, const SourceP
   return load_curve(kIlluminantUse, name, where, diagnostics, needed);
 }
 
-FractionOutside fraction_outside(const Curve& weight, const Curve& light, double low_nm, double high_nm) {
+double fraction_outside(const Curve& weight, const Curve& light, double low_nm, double high_nm) {
   const NeededRange support = support_range(weight);
-  if (support.low_nm >= low_nm && support.high_nm <= high_nm) return {};
+  if (support.low_nm >= low_nm && support.high_nm <= high_nm) return 0;
   const double from = std::clamp(low_nm, support.low_nm, support.high_nm);
   const double to = std::clamp(high_nm, support.low_nm, support.high_nm);
-  const Integral below = magnitude_of_product(weight, light, support.low_nm, from);
-  const Integral within = magnitude_of_product(weight, light, from, to);
-  const Integral above = magnitude_of_product(weight, light, to, support.high_nm);
-  const double outside = below.value + above.value;
-  return {outside > 0 ? outside / (outside + within.value) : 0, below.pieces + within.pieces + above.pieces};
+  const double outside = magnitude_of_product(weight, light, support.low_nm, from) +
+                         magnitude_of_product(weight, light, to, support.high_nm);
+  return outside > 0 ? outside / (outside + magnitude_of_product(weight, light, from, to)) : 0;
 }
 
 NeededRange main_range(const Curve& curve) {

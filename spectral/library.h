@@ -34,7 +34,7 @@ struct NeededRange {
 /// All wavelengths of a render.
 inline constexpr NeededRange kEveryWavelength{kMinWavelengthNm, kMaxWavelengthNm};
 
-/// A column of a table without interpolation.
+/// A column of a table.
 struct TableSamples {
   Table table;
   Samples samples;  ///< One per row.
@@ -64,6 +64,9 @@ struct TableSamples {
                                                    const SourcePosition& where, Diagnostics& diagnostics,
                                                    NeededRange needed = {});
 
+/// The curve `name` of a shipped table. Throws Error{input} if `load_curve` reports an error.
+[[nodiscard]] Curve shipped_curve(std::string_view folder, const std::string& name);
+
 /// Reads a column of a parsed table. `name` only becomes the name of the curve. Reports errors like
 /// `load_curve`.
 [[nodiscard]] std::optional<NamedCurve> curve_of(const Table& table, const std::string& column,
@@ -92,16 +95,9 @@ struct TableSamples {
 /// Largest fraction of a response or light that may be unknown without a warning.
 inline constexpr double kNegligibleFraction = 1e-3;
 
-/// Fraction of an integral outside a range, and the number of linear pieces that were summed for it.
-struct FractionOutside {
-  double fraction = 0;     ///< In [0, 1].
-  std::size_t pieces = 0;  ///< A measure of the work, for tests.
-};
-
-/// Fraction of the integral of |weight x light| below `low_nm` and above `high_nm`; 0 if the product is 0
-/// everywhere. Sums only pieces with a nonzero weight, and none if all of them lie inside the range.
-[[nodiscard]] FractionOutside fraction_outside(const Curve& weight, const Curve& light, double low_nm,
-                                               double high_nm);
+/// Fraction of the integral of |weight x light| below `low_nm` and above `high_nm`, in [0, 1]; 0 if the
+/// product is 0 everywhere.
+[[nodiscard]] double fraction_outside(const Curve& weight, const Curve& light, double low_nm, double high_nm);
 
 /// Smallest range [nm] between knots of the curve, rounded outwards to whole nanometres, that omits at most
 /// `kNegligibleFraction` of the integral of |curve| at each end. For a curve that is 0 everywhere, the range

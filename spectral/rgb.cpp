@@ -17,7 +17,6 @@
 #include "io/exr.h"
 #include "io/picture_codec.h"
 #include "io/text.h"
-#include "spectral/colorimetry.h"
 #include "spectral/library.h"
 
 namespace abbe {
@@ -30,21 +29,17 @@ constexpr Eigen::Index kUnknowns = 6;
 
 // Rec.709 components of each unit of power per nanometre that the perfect diffuser reflects under D65.
 std::array<LinearRgb, kCount> make_weights() {
-  Diagnostics diagnostics;
-  const auto d65 = load_illuminant("D65", {}, diagnostics);
-  if (!d65) throw Error(ErrorCode::input, "illuminant D65", diagnostics.text());
+  const Curve d65 = shipped_curve("illuminant", "D65");
   const ColorMatching& match = color_matching(Observer::cie1931);
   Eigen::Matrix3d primaries;  // one column each
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto& [x, y] = kRec709Primaries.at(c);
-    primaries.col(static_cast<Eigen::Index>(c)) << x, y, 1 - x - y;
-  }
+  Eigen::Index c = 0;
+  for (const auto& [x, y] : {kRec709.red, kRec709.green, kRec709.blue}) primaries.col(c++) << x, y, 1 - x - y;
   const Eigen::PartialPivLU<Eigen::Matrix3d> lu(primaries);
   std::array<LinearRgb, kCount> weights{};
   LinearRgb white{};
   for (std::size_t i = 0; i < kCount; ++i) {
     const double nm = kSums.low_nm + static_cast<double>(i);
-    const double power = d65->curve(nm);
+    const double power = d65(nm);
     const Eigen::Vector3d at = lu.solve(power * Eigen::Vector3d(match.x(nm), match.y(nm), match.z(nm)));
     weights[i] = {at[0], at[1], at[2]};
     for (std::size_t c = 0; c < 3; ++c) white[c] += weights[i][c];

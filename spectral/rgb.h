@@ -14,10 +14,6 @@ namespace abbe {
 /// Linear colour in the primaries of Rec.709 and sRGB; (1, 1, 1) is the perfect diffuser under D65.
 using LinearRgb = std::array<double, 3>;
 
-/// Chromaticities x, y of the red, green and blue primary of Rec.709 [BT709].
-inline constexpr std::array<std::array<double, 2>, 3> kRec709Primaries{
-    {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}}};
-
 /// XYZ of a chromaticity with Y = 1. Its y must not be 0.
 [[nodiscard]] XYZ unit_xyz(const Chromaticity& xy);
 
@@ -31,8 +27,7 @@ struct RgbSpace {
   Chromaticity blue;
   Chromaticity white;
 };
-inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec709Primaries[2],
-                                  kD65};  ///< [BT709]
+inline constexpr RgbSpace kRec709{{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, kD65};  ///< [BT709]
 
 /// RGB space that an image records in its attribute `kPrimariesKey`: x and y of red, green, blue and white.
 /// Nothing if it records none, or not eight numbers.

@@ -1,6 +1,5 @@
 #include "spectral/sources.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -12,21 +11,16 @@ namespace abbe {
 namespace {
 
 struct DaylightComponents {
-  NamedCurve mean;
-  NamedCurve first;
-  NamedCurve second;
+  Curve mean;
+  Curve first;
+  Curve second;
 };
 
 const DaylightComponents& daylight_components() {
-  static const DaylightComponents components = [] {
-    const auto load = [](const std::string& column) {
-      Diagnostics diagnostics;
-      auto curve = load_curve("illuminant", "cie_daylight_components:" + column, {}, diagnostics);
-      if (!curve) throw Error(ErrorCode::input, "cie_daylight_components", diagnostics.text());
-      return *std::move(curve);
-    };
-    return DaylightComponents{load("S0"), load("S1"), load("S2")};
-  }();
+  static const auto load = [](const std::string& column) {
+    return shipped_curve("illuminant", "cie_daylight_components:" + column);
+  };
+  static const DaylightComponents components{load("S0"), load("S1"), load("S2")};
   return components;
 }
 
@@ -45,9 +39,8 @@ double planck_radiance(double temperature_K, double wavelength_nm) {
 
 Curve planck(double temperature_K) {
   std::vector<Knot> knots;
-  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm) {
+  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm)
     knots.push_back({static_cast<double>(nm), planck_radiance(temperature_K, nm)});
-  }
   return Curve(std::move(knots));
 }
 
@@ -62,7 +55,7 @@ Curve daylight(double cct_K) {
   const double m1 = rounded((-1.3515 - 1.7703 * x + 5.9114 * y) / m, 1e3);
   const double m2 = rounded((0.0300 - 31.4424 * x + 30.0717 * y) / m, 1e3);
   const DaylightComponents& s = daylight_components();
-  return sum(s.mean.curve, sum(scaled(s.first.curve, m1), scaled(s.second.curve, m2)));
+  return sum(s.mean, sum(scaled(s.first, m1), scaled(s.second, m2)));
 }
 
 Curve band(double low_nm, double high_nm, double value) {

@@ -42,11 +42,9 @@ struct Cells {
 Cells cells_of(std::span<const Curve> emissions, std::span<const Curve> responses) {
   std::vector<double> edges;
   for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm) edges.push_back(nm);
-  for (const auto curves : {emissions, responses}) {
-    for (const Curve& curve : curves) {
+  for (const auto curves : {emissions, responses})
+    for (const Curve& curve : curves)
       for (const Knot& knot : curve.knots()) edges.push_back(knot.wavelength_nm);
-    }
-  }
   std::sort(edges.begin(), edges.end());
   const auto same = [](double a, double b) { return b - a < kEdgeResolutionNm; };
   edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
@@ -77,9 +75,8 @@ std::vector<std::vector<double>> pair_densities(const Cells& cells, std::span<co
   for (const Curve& emission : emissions) {
     const std::vector<double> light = cells.values(emission);
     for (const std::vector<double>& channel : responses) {
-      for (std::size_t i = 0; i < density.size(); ++i) {
+      for (std::size_t i = 0; i < density.size(); ++i)
         density[i] = 0.5 * (light[2 * i] * channel[2 * i] + light[2 * i + 1] * channel[2 * i + 1]);
-      }
       const auto known = [&density](const std::vector<double>& pair) { return same_shape(pair, density); };
       if (normalize(cells, density) && std::none_of(pairs.begin(), pairs.end(), known))
         pairs.push_back(density);
@@ -91,13 +88,10 @@ std::vector<std::vector<double>> pair_densities(const Cells& cells, std::span<co
 /// 1 in cells where some channel responds, or everywhere if none does.
 std::vector<double> support_of(const Cells& cells, const std::vector<std::vector<double>>& responses) {
   std::vector<double> support(cells.count());
-  for (const std::vector<double>& channel : responses) {
-    for (std::size_t i = 0; i < support.size(); ++i) {
+  for (const std::vector<double>& channel : responses)
+    for (std::size_t i = 0; i < support.size(); ++i)
       if (channel[2 * i] + channel[2 * i + 1] > 0) support[i] = 1;
-    }
-  }
-  if (std::find(support.begin(), support.end(), 1.0) == support.end())
-    std::fill(support.begin(), support.end(), 1.0);
+  if (std::ranges::count(support, 1.0) == 0) std::ranges::fill(support, 1.0);
   return support;
 }
 
@@ -124,9 +118,8 @@ WavelengthDistribution::WavelengthDistribution(std::span<const Curve> emissions,
   for (const Curve& response : responses) channels.push_back(cells.values(response));
 
   std::vector<double> mixture(cells.count());
-  for (const std::vector<double>& pair : pair_densities(cells, emissions, channels)) {
+  for (const std::vector<double>& pair : pair_densities(cells, emissions, channels))
     for (std::size_t i = 0; i < mixture.size(); ++i) mixture[i] += pair[i];
-  }
   std::vector<double> support = support_of(cells, channels);
   const bool overlap = normalize(cells, mixture);
   normalize(cells, support);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numeric>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -16,6 +15,37 @@
 namespace abbe::schema {
 
 namespace {
+std::string joined(std::string_view path, std::string_view key) {
+  return path.empty() ? std::string(key) : fmt::format("{}/{}", path, key);
+}
+
+std::string_view group_label(const OneOf& group) {
+  return group.required ? "one of" : "at most one of";
+}
+
+/// Collects the structs in each value type, each once.
+struct CollectStructs {
+  std::vector<const Fields*>& structs;
+
+  void operator()(const Struct& structure) const {
+    const Fields* fields = &structure.fields();
+    if (std::ranges::count(structs, fields) == 0) structs.push_back(fields);
+  }
+  void operator()(const List& list) const { std::visit(*this, list.element->variant); }
+  void operator()(const ByName& group) const { std::visit(*this, group.element->variant); }
+  void operator()(const Forms& forms) const {
+    for (const Form& form : forms.forms) std::visit(*this, form.alternative.type->variant);
+  }
+  void operator()(const auto&) const {}
+};
+
+// The structs that are values of these types, or elements or alternatives of them, each once.
+std::vector<const Fields*> structs_in(std::span<const ValueType* const> types) {
+  std::vector<const Fields*> structs;
+  for (const ValueType* type : types) std::visit(CollectStructs{structs}, type->variant);
+  return structs;
+}
+
 std::string type_text(const ValueType& type, const Links& links);
 
 // "number in (0, 1e+12] nm", or the number itself if the range is a single value.
@@ -41,7 +71,7 @@ std::string linked(std::string word, const Fields* fields, const Links& links) {
 std::string alternatives(const std::vector<std::string>& texts) {
   std::vector<std::string> all;
   for (const std::string& text : texts)
-    if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
+    if (std::ranges::count(all, text) == 0) all.push_back(text);
   const std::string last = all.back();
   all.pop_back();
   return all.empty() ? last : fmt::format("{} or {}", fmt::join(all, ", "), last);
@@ -128,9 +158,8 @@ std::vector<Key> keys_of(const Fields& fields);
 
 // Adds the choices of a group, then the keys that some of the choices add.
 void add_group(const OneOf& group, std::vector<Key>& keys) {
-  const int number = 1 + std::accumulate(keys.begin(), keys.end(), 0, [](int max_number, const Key& key) {
-                       return std::max(max_number, key.group_number);
-                     });
+  int number = 1;
+  for (const Key& key : keys) number = std::max(number, key.group_number + 1);
   std::vector<Key> companions;
   for (const Choice& choice : group.choices) {
     const ValueType& type = *choice.alternative.type;
@@ -155,7 +184,7 @@ void add_group(const OneOf& group, std::vector<Key>& keys) {
 // Sets the presence of keys that may replace one another.
 void set_any_of_presence(const Fields& fields, std::vector<Key>& keys) {
   for (Key& key : keys)
-    if (std::find(fields.any_of.begin(), fields.any_of.end(), key.name) != fields.any_of.end()) {
+    if (std::ranges::count(fields.any_of, key.name) != 0) {
       std::vector<std::string_view> others = fields.any_of;
       std::erase(others, key.name);
       key.presence = fmt::format("{} {}", fields.exclusive ? "in place of" : "required without",
@@ -178,22 +207,6 @@ std::vector<Key> keys_of(const Fields& fields) {
   set_any_of_presence(fields, keys);
   return keys;
 }
-
-/// Collects the structs in each value type, each once.
-struct CollectStructs {
-  std::vector<const Fields*>& structs;
-
-  void operator()(const Struct& structure) const {
-    const Fields* fields = &structure.fields();
-    if (std::find(structs.begin(), structs.end(), fields) == structs.end()) structs.push_back(fields);
-  }
-  void operator()(const List& list) const { std::visit(*this, list.element->variant); }
-  void operator()(const ByName& group) const { std::visit(*this, group.element->variant); }
-  void operator()(const Forms& forms) const {
-    for (const Form& form : forms.forms) std::visit(*this, form.alternative.type->variant);
-  }
-  void operator()(const auto&) const {}
-};
 
 constexpr std::string_view kBegin = "<!-- keys: ";
 constexpr std::string_view kBeginEnd = " -->";
@@ -225,7 +238,7 @@ Section named_section(std::string_view names, const std::vector<StructPath>& pat
   Section section;
   for (const std::string& name : split(names, ',')) {
     const auto path_entry =
-        std::find_if(paths.begin(), paths.end(), [&](const StructPath& p) { return p.fields->name == name; });
+        std::ranges::find(paths, name, [](const StructPath& p) { return p.fields->name; });
     if (path_entry == paths.end())
       throw Error(ErrorCode::internal, "", fmt::format("the guide names the unknown struct \"{}\"", name));
     section.structs.push_back(path_entry->fields);
@@ -328,7 +341,7 @@ std::string entry(const std::string& path, const Key& key) {
 // that the user chose.
 bool hold_element(const std::vector<const ValueType*>& types, const std::string& step) {
   const bool is_number = step.find_first_not_of("0123456789") == std::string::npos;
-  return std::any_of(types.begin(), types.end(), [is_number](const ValueType* type) {
+  return std::ranges::any_of(types, [is_number](const ValueType* type) {
     return std::holds_alternative<ByName>(type->variant) ||
            (is_number && std::holds_alternative<List>(type->variant));
   });
@@ -391,28 +404,14 @@ std::vector<Key> keys_of(std::span<const Fields* const> structs) {
   return keys;
 }
 
-std::vector<const Fields*> structs_in(std::span<const ValueType* const> types) {
-  std::vector<const Fields*> structs;
-  for (const ValueType* type : types) std::visit(CollectStructs{structs}, type->variant);
-  return structs;
-}
-
 std::vector<StructPath> structs_below(const Fields& root) {
   std::vector<StructPath> paths{{"", &root}};
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (const Key& key : keys_of(*paths[i].fields))
       for (const Fields* fields : structs_in(key.types))
-        if (std::none_of(paths.begin(), paths.end(), [&](const StructPath& p) { return p.fields == fields; }))
+        if (std::ranges::count(paths, fields, &StructPath::fields) == 0)
           paths.push_back({joined(paths[i].path, key.name), fields});
   return paths;
-}
-
-std::string joined(std::string_view path, std::string_view key) {
-  return path.empty() ? std::string(key) : fmt::format("{}/{}", path, key);
-}
-
-std::string_view group_label(const OneOf& group) {
-  return group.required ? "one of" : "at most one of";
 }
 
 std::string with_tables(const std::string& guide, const Fields& root) {

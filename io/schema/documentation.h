@@ -39,10 +39,6 @@ struct Key {
 /// equal name, meaning, type and group are merged into one.
 [[nodiscard]] std::vector<Key> keys_of(std::span<const Fields* const> structs);
 
-/// The structs that are values of these types, or elements or alternatives of them, each once. Structs inside
-/// structs are not included.
-[[nodiscard]] std::vector<const Fields*> structs_in(std::span<const ValueType* const> types);
-
 /// A struct and the first of the shortest key paths to it.
 struct StructPath {
   std::string path;  ///< Such as "sensor/readout"; empty for the root.
@@ -50,12 +46,6 @@ struct StructPath {
 };
 /// The root and all structs inside it, each once, by ascending length of their paths.
 [[nodiscard]] std::vector<StructPath> structs_below(const Fields& root);
-
-/// `path` and `key`, joined by '/'; `key` alone if `path` is empty.
-[[nodiscard]] std::string joined(std::string_view path, std::string_view key);
-
-/// Label above the keys of a group: "one of" or "at most one of".
-[[nodiscard]] std::string_view group_label(const OneOf& group);
 
 /// The Markdown text `guide` with its tables of keys regenerated. A table is between the lines `<!-- keys:
 /// NAME, NAME -->` and `<!-- end -->`, below a heading. The names are those (`Fields::name`) of `root` or of

@@ -1,7 +1,6 @@
 #include "io/schema/read.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -13,8 +12,8 @@ struct ObjectReading {
   const JsonValue& json;
   Diagnostics& diagnostics;
   std::size_t known_count = 0;  ///< Number of members that have been found.
-  bool groups_resolved =
-      true;  ///< False if a required group of keys has no unique choice; unknown keys may then belong to it.
+  /// False if a required group of keys has no unique choice; unknown keys may then belong to it.
+  bool groups_resolved = true;
 };
 
 bool read_fields(ObjectReading& reading, const Fields& fields, void* instance);
@@ -98,8 +97,8 @@ bool check_any_of(const ObjectReading& reading, const Fields& fields) {
                               fmt::format("missing key \"{}\"", fmt::join(fields.any_of, "\" or \"")));
     return false;
   }
-  const auto parent = [](std::string_view path) { return path.substr(0, path.find('/')); };
   if (present.size() == 1 || !fields.exclusive) return true;
+  const auto parent = [](std::string_view path) { return path.substr(0, path.find('/')); };
   // That object reports the error.
   if (parent(present[0]) == parent(present[1])) return false;
   reading.diagnostics.error(find_path(reading.json, present[1])->where,
@@ -144,7 +143,7 @@ void collect_owners(const JsonValue& json, const Fields& fields, std::string_vie
       const Fields& inlined_fields = std::get<Struct>(choice.alternative.type->variant).fields();
       std::vector<std::string> keys;
       collect_keys(json, inlined_fields, keys);
-      if (std::find(keys.begin(), keys.end(), key) != keys.end()) owners.push_back(choice.key);
+      if (std::ranges::count(keys, key) != 0) owners.push_back(choice.key);
       if (json.find(choice.key)) collect_owners(json, inlined_fields, key, owners);
     }
   }
@@ -155,9 +154,8 @@ bool read_list(const JsonValue& json, const List& list, void* value, Diagnostics
     return read(json, *list.element, list.append(value, json.where), diagnostics);
   const JsonValue::Array* elements = read_array(json, list.what, list.min_size, diagnostics);
   if (!elements) return false;
-  const bool is_vector_list =
-      // There may be many: report the first error only.
-      std::holds_alternative<Vector>(list.element->variant);
+  // There may be many vectors: report the first error only.
+  const bool is_vector_list = std::holds_alternative<Vector>(list.element->variant);
   list.reserve(value, elements->size());
   bool valid = true;
   for (const JsonValue& element : *elements) {
@@ -184,8 +182,8 @@ bool fits(const JsonValue& json, const Form& form) {
   constexpr Json kTypes[] = {Json::any, Json::any, Json::number, Json::text, Json::list, Json::object};
   if (form.json == Json::any) return true;
   if (form.json != kTypes[json.value.index()]) return false;
-  return form.keys.empty() || std::any_of(form.keys.begin(), form.keys.end(),
-                                          [&](std::string_view key) { return json.find(key) != nullptr; });
+  return form.keys.empty() ||
+         std::ranges::any_of(form.keys, [&](std::string_view key) { return json.find(key) != nullptr; });
 }
 
 // True if a key that selects the form is present, but misspelt. Keys of one or two letters are excluded: a
@@ -194,8 +192,7 @@ bool fits_misspelt(const JsonValue& json, const Form& form) {
   const auto* object = std::get_if<JsonValue::Object>(&json.value);
   std::vector<std::string> keys(form.keys.begin(), form.keys.end());
   std::erase_if(keys, [](const std::string& key) { return key.size() < 3; });
-  return object != nullptr &&
-         std::any_of(object->begin(), object->end(), [&](const JsonValue::Member& member) {
+  return object != nullptr && std::ranges::any_of(*object, [&](const JsonValue::Member& member) {
            return nearest_name(member.first, keys).has_value();
          });
 }
@@ -225,8 +222,7 @@ bool read_vector(const JsonValue& json, const Vector& vector, void* value, Diagn
   const auto numbers = read_numbers(json, vector.count, vector.range, diagnostics);
   if (!numbers) return false;
   for (std::size_t i = 0; i < vector.count; ++i) vector.set(value, i, (*numbers)[i]);
-  const auto is_zero = [](double x) { return x == 0; };
-  if (!vector.nonzero || !std::all_of(numbers->begin(), numbers->end(), is_zero)) return true;
+  if (!vector.nonzero || std::ranges::any_of(*numbers, [](double x) { return x != 0; })) return true;
   diagnostics.error(json.where, fmt::format("a direction must not be zero (got [{}])",
                                             fmt::join(std::vector<int>(vector.count, 0), ", ")));
   return false;
@@ -280,13 +276,11 @@ struct ReadValue {
 std::optional<JsonValue> object_of_array(const JsonValue& json, const JsonValue::Array& array,
                                          const Fields& fields, Diagnostics& diagnostics) {
   const std::vector<std::string_view> keys = fields.array_keys();
-  if (array.size() < fields.array_form->min_size || array.size() > keys.size()) {
-    diagnostics.error(
+  if (array.size() < fields.array_form->min_size || array.size() > keys.size())
+    return diagnostics.refuse(
         json.where,
         fmt::format("an array in place of this object has the values {} (got {} values, allowed {} to {})",
                     fmt::join(keys, ", "), array.size(), fields.array_form->min_size, keys.size()));
-    return std::nullopt;
-  }
   JsonValue::Object object;
   for (std::size_t i = 0; i < array.size(); ++i) {
     if (std::holds_alternative<std::nullptr_t>(array[i].value)) continue;
@@ -317,7 +311,7 @@ bool read(const JsonValue& json, const Fields& fields, void* instance, Diagnosti
   std::vector<std::string> keys;
   collect_keys(json, fields, keys);
   for (const auto& [key, member] : *object) {
-    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    if (std::ranges::count(keys, key) != 0) continue;
     std::vector<std::string_view> owners;
     collect_owners(json, fields, key, owners);
     diagnostics.error(member.key_position(), owners.empty() ? unknown_name("key", key, keys)

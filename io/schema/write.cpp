@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -11,13 +12,20 @@
 namespace abbe::schema {
 
 namespace {
-void write_fields(const Fields& fields, const void* instance, JsonValue::Object& into);
+using Object = JsonValue::Object;
+using Array = JsonValue::Array;
 
-void write_choice(const Choice& choice, const void* variant, JsonValue::Object& into) {
+void add(Object& object, std::string_view key, JsonValue value) {
+  object.push_back({std::string(key), std::move(value)});
+}
+
+void write_fields(const Fields& fields, const void* instance, Object& into);
+
+void write_choice(const Choice& choice, const void* variant, Object& into) {
   const void* value = choice.alternative.get(variant);
   if (value == nullptr) return;
   if (choice.nested)
-    into.push_back({std::string(choice.key), write(*choice.alternative.type, value)});
+    add(into, choice.key, write(*choice.alternative.type, value));
   else
     write_fields(std::get<Struct>(choice.alternative.type->variant).fields(), value, into);
 }
@@ -29,7 +37,7 @@ bool equals_default(const Field& field, const JsonValue& written, const void* de
   return value != nullptr && to_text(write(std::get<ValueType>(*field.content), value)) == to_text(written);
 }
 
-void write_fields(const Fields& fields, const void* instance, JsonValue::Object& into) {
+void write_fields(const Fields& fields, const void* instance, Object& into) {
   for (const Field& field : fields.fields) {
     const void* value = field.get(instance);
     if (value == nullptr) continue;
@@ -39,8 +47,7 @@ void write_fields(const Fields& fields, const void* instance, JsonValue::Object&
       write_fields(inlined->fields(), value, into);
     } else {
       JsonValue written = write(std::get<ValueType>(*field.content), value);
-      if (!equals_default(field, written, fields.defaults))
-        into.push_back({std::string(field.key), std::move(written)});
+      if (!equals_default(field, written, fields.defaults)) add(into, field.key, std::move(written));
     }
   }
 }
@@ -61,12 +68,12 @@ struct WriteValue {
     return json(std::string(type.names[type.get(value)]));
   }
   JsonValue operator()(const Vector& type) const {
-    JsonValue::Array array;
+    Array array;
     for (std::size_t i = 0; i < type.count; ++i) array.push_back(json(type.get(value, i)));
     return json(std::move(array));
   }
   JsonValue operator()(const Numbers&) const {
-    JsonValue::Array array;
+    Array array;
     for (const double number : as<std::vector<double>>()) array.push_back(json(number));
     return json(std::move(array));
   }
@@ -74,14 +81,14 @@ struct WriteValue {
   JsonValue operator()(const List& type) const {
     const std::size_t size = type.size(value);
     if (type.allows_single && size == 1) return write(*type.element, type.at(value, 0));
-    JsonValue::Array array;
+    Array array;
     for (std::size_t i = 0; i < size; ++i) array.push_back(write(*type.element, type.at(value, i)));
     return json(std::move(array));
   }
   JsonValue operator()(const ByName& type) const {
-    JsonValue::Object object;
+    Object object;
     for (std::size_t i = 0; i < type.size(value); ++i)
-      object.push_back({type.name(value, i), write(*type.element, type.at(value, i))});
+      add(object, type.name(value, i), write(*type.element, type.at(value, i)));
     return json(std::move(object));
   }
   JsonValue operator()(const Forms& type) const {
@@ -94,19 +101,16 @@ struct WriteValue {
 // True if a default is worth stating: not an infinite number, and not an empty list or object.
 bool is_informative(const JsonValue& value) {
   if (const auto* number = std::get_if<double>(&value.value)) return std::isfinite(*number);
-  if (const auto* array = std::get_if<JsonValue::Array>(&value.value)) return !array->empty();
-  const auto* object = std::get_if<JsonValue::Object>(&value.value);
+  if (const auto* array = std::get_if<Array>(&value.value)) return !array->empty();
+  const auto* object = std::get_if<Object>(&value.value);
   return object == nullptr || !object->empty();
 }
-
-using Object = JsonValue::Object;
-using Array = JsonValue::Array;
 
 JsonValue string(std::string_view text) {
   return json(std::string(text));
 }
-void add(Object& object, std::string_view key, JsonValue value) {
-  object.push_back({std::string(key), std::move(value)});
+void add(JsonValue& object, std::string_view key, JsonValue value) {
+  add(std::get<Object>(object.value), key, std::move(value));
 }
 JsonValue object_of(std::string_view key, JsonValue value) {
   Object object;
@@ -118,8 +122,7 @@ JsonValue has(std::string_view path) {
   const std::size_t end = path.find('/');
   JsonValue first = object_of("required", json(Array{string(path.substr(0, end))}));
   if (end != std::string_view::npos)
-    add(std::get<Object>(first.value), "properties",
-        object_of(path.substr(0, end), has(path.substr(end + 1))));
+    add(first, "properties", object_of(path.substr(0, end), has(path.substr(end + 1))));
   return first;
 }
 
@@ -148,14 +151,13 @@ void write_object_schema(ObjectSchema content, Object& into) {
 }
 
 void describe_as(JsonValue& schema, std::string_view text) {
-  if (!text.empty()) add(std::get<Object>(schema.value), "description", string(text));
+  if (!text.empty()) add(schema, "description", string(text));
 }
 
 JsonValue field_schema(const Field& field, const void* defaults, Definitions& definitions) {
   JsonValue schema = schema_of(std::get<ValueType>(*field.content), definitions);
   describe_as(schema, field.text);
-  if (auto value = default_of(field, defaults))
-    add(std::get<Object>(schema.value), "default", *std::move(value));
+  if (auto value = default_of(field, defaults)) add(schema, "default", *std::move(value));
   return schema;
 }
 
@@ -178,9 +180,8 @@ std::vector<ObjectSchema> branches_of(const OneOf& group, Definitions& definitio
 bool same_everywhere(const std::vector<ObjectSchema>& branches, const std::string& key,
                      const JsonValue& schema) {
   const std::string text = to_text(schema);
-  return std::all_of(branches.begin(), branches.end(), [&](const ObjectSchema& branch) {
-    const auto found = std::find_if(branch.properties.begin(), branch.properties.end(),
-                                    [&](const auto& member) { return member.first == key; });
+  return std::ranges::all_of(branches, [&](const ObjectSchema& branch) {
+    const auto found = std::ranges::find(branch.properties, key, &JsonValue::Member::first);
     return found == branch.properties.end() || to_text(found->second) == text;
   });
 }
@@ -192,9 +193,8 @@ void merge_properties(std::vector<ObjectSchema>& branches, Object& properties) {
   for (ObjectSchema& branch : branches)
     std::erase_if(branch.properties, [&](const JsonValue::Member& member) {
       const bool same = same_everywhere(all, member.first, member.second);
-      const bool known = std::any_of(properties.begin(), properties.end(),
-                                     [&](const auto& other) { return other.first == member.first; });
-      if (!known) add(properties, member.first, same ? member.second : json(true));
+      if (std::ranges::find(properties, member.first, &JsonValue::Member::first) == properties.end())
+        add(properties, member.first, same ? member.second : json(true));
       return same;
     });
 }
@@ -227,10 +227,7 @@ void add_group(const OneOf& group, ObjectSchema& content, Definitions& definitio
     write_object_schema(std::move(branches[i]), schema);
     if (!schema.empty()) add(dependent, key, json(std::move(schema)));
   }
-  if (!group.required) {
-    JsonValue none = object_of("not", object_of("anyOf", json(choices)));
-    choices.push_back(std::move(none));
-  }
+  if (!group.required) choices.push_back(object_of("not", object_of("anyOf", json(choices))));
   Object clause;
   add(clause, "oneOf", json(std::move(choices)));
   if (!dependent.empty()) add(clause, "dependentSchemas", json(std::move(dependent)));
@@ -269,18 +266,18 @@ JsonValue of_type(std::string_view type) {
 
 JsonValue bounded(std::string_view type, const Range& range, double largest) {
   JsonValue schema = of_type(type);
-  auto& object = std::get<Object>(schema.value);
-  add(object, range.open_low ? "exclusiveMinimum" : "minimum", json(std::max(range.low, -largest)));
-  add(object, range.open_high ? "exclusiveMaximum" : "maximum", json(std::min(range.high, largest)));
+  add(schema, range.open_low ? "exclusiveMinimum" : "minimum", json(std::max(range.low, -largest)));
+  add(schema, range.open_high ? "exclusiveMaximum" : "maximum", json(std::min(range.high, largest)));
   return schema;
 }
 
-JsonValue array_of(JsonValue items, std::size_t min_size, std::size_t max_size) {
+// An array of that size; a `max_size` of 0 is no limit. `items_key` says to which elements `items` apply.
+JsonValue array_of(JsonValue items, std::size_t min_size, std::size_t max_size,
+                   std::string_view items_key = "items") {
   JsonValue schema = of_type("array");
-  auto& object = std::get<Object>(schema.value);
-  add(object, "items", std::move(items));
-  if (min_size > 0) add(object, "minItems", json(static_cast<double>(min_size)));
-  if (max_size > 0) add(object, "maxItems", json(static_cast<double>(max_size)));
+  add(schema, items_key, std::move(items));
+  if (min_size > 0) add(schema, "minItems", json(static_cast<double>(min_size)));
+  if (max_size > 0) add(schema, "maxItems", json(static_cast<double>(max_size)));
   return schema;
 }
 
@@ -304,8 +301,7 @@ struct SchemaOf {
     JsonValue number = type.integers ? bounded("integer", type.range, kLargestInteger)
                                      : bounded("number", type.range, kLargestFloat);
     JsonValue schema = array_of(std::move(number), type.count, type.count);
-    if (type.nonzero)
-      add(std::get<Object>(schema.value), "not", object_of("const", json(Array(type.count, json(0.0)))));
+    if (type.nonzero) add(schema, "not", object_of("const", json(Array(type.count, json(0.0)))));
     return schema;
   }
   JsonValue operator()(const Numbers& type) const {
@@ -314,26 +310,23 @@ struct SchemaOf {
   // A reference to the definition called `name`, which `write` creates at the first use.
   template <typename Write>
   JsonValue defined(std::string_view name, Write write) const {
-    if (!definitions.contains(std::string(name))) {
-      definitions[std::string(name)];  // Inserted first, since the struct may contain its own type.
-      JsonValue schema = write();
-      definitions[std::string(name)] = std::move(schema);
-    }
+    // Inserted first, since the struct may contain its own type.
+    if (const auto [definition, is_new] = definitions.try_emplace(std::string(name)); is_new)
+      definition->second = write();
     return object_of("$ref", string(fmt::format("#/$defs/{}", name)));
   }
   JsonValue operator()(const Struct& type) const {
     const Fields& fields = type.fields();
     return defined(fields.name, [&] {
-      Object schema;
-      if (!fields.text.empty()) add(schema, "description", string(fields.text));
-      if (fields.array_form) {
-        Object object;
-        write_object(fields, object, definitions);
+      JsonValue schema = json(Object{});
+      describe_as(schema, fields.text);
+      Object object;
+      write_object(fields, object, definitions);
+      if (fields.array_form)
         add(schema, "anyOf", json(Array{json(std::move(object)), row_of(fields)}));
-      } else {
-        write_object(fields, schema, definitions);
-      }
-      return json(std::move(schema));
+      else
+        std::ranges::move(object, std::back_inserter(std::get<Object>(schema.value)));
+      return schema;
     });
   }
   JsonValue row_of(const Fields& fields) const {
@@ -342,12 +335,8 @@ struct SchemaOf {
       values.push_back(object_of(
           "anyOf", json(Array{schema_of(std::get<ValueType>(*fields.fields[i].content), definitions),
                               of_type("null")})));
-    JsonValue schema = of_type("array");
-    auto& object = std::get<Object>(schema.value);
-    add(object, "prefixItems", json(std::move(values)));
-    add(object, "minItems", json(static_cast<double>(fields.array_form->min_size)));
-    add(object, "maxItems", json(static_cast<double>(fields.array_form->max_size)));
-    return schema;
+    return array_of(json(std::move(values)), fields.array_form->min_size, fields.array_form->max_size,
+                    "prefixItems");
   }
   JsonValue operator()(const List& type) const {
     JsonValue all = array_of(schema_of(*type.element, definitions), type.min_size, 0);
@@ -356,9 +345,8 @@ struct SchemaOf {
   }
   JsonValue operator()(const ByName& type) const {
     JsonValue schema = of_type("object");
-    auto& object = std::get<Object>(schema.value);
-    add(object, "additionalProperties", schema_of(*type.element, definitions));
-    if (type.min_size > 0) add(object, "minProperties", json(static_cast<double>(type.min_size)));
+    add(schema, "additionalProperties", schema_of(*type.element, definitions));
+    if (type.min_size > 0) add(schema, "minProperties", json(static_cast<double>(type.min_size)));
     return schema;
   }
   JsonValue operator()(const Forms& type) const {
@@ -381,7 +369,7 @@ JsonValue write(const ValueType& type, const void* value) {
 }
 
 JsonValue write(const Fields& fields, const void* instance) {
-  JsonValue::Object object;
+  Object object;
   write_fields(fields, instance, object);
   return json(std::move(object));
 }

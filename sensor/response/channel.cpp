@@ -1,6 +1,7 @@
 #include "sensor/response/channel.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <utility>
 
@@ -322,7 +323,7 @@ std::optional<std::vector<NamedCurve>> read_camera_json(const std::filesystem::p
   const JsonValue* const index = descend(*root, {"spectral_data", "index", "main"}, diagnostics);
   const JsonValue* const data = descend(*root, {"spectral_data", "data", "main"}, diagnostics);
   if (units == nullptr || index == nullptr || data == nullptr) return std::nullopt;
-  static_cast<void>(read_choice(*units, "unit", {kUnit}, diagnostics));
+  static_cast<void>(read_choice(*units, "unit", std::array{kUnit}, diagnostics));
   const std::vector<std::string> names = channel_names(*index, diagnostics);
   const CameraSamples samples = samples_of(*data, names.size(), diagnostics);
   if (diagnostics.all().size() != before) return std::nullopt;

@@ -1,5 +1,7 @@
 #include "io/json_values.h"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "test_files.h"
@@ -104,7 +106,7 @@ TEST_F(JsonValues, CountsAreWholeAndInRange) {
 TEST_F(JsonValues, ChoicesAreNumberedFromZero) {
   parse(R"({"a": "mm", "b": "mmn", "c": 1})");
   const auto choice = [&](const char* key) {
-    return read_choice(at(key), "unit", {"m", "mm"}, diagnostics_);
+    return read_choice(at(key), "unit", std::array{"m", "mm"}, diagnostics_);
   };
   EXPECT_EQ(choice("a"), 1U);
   EXPECT_EQ(choice("b"), std::nullopt);

@@ -38,7 +38,7 @@ TEST(Rgb, ColoursAreThoseOfTheTables) {
   const auto d65 = load_illuminant("D65", {}, diagnostics);
   ASSERT_TRUE(d65);
   const XYZ red = tristimulus(d65->curve, rgb_basis().red, Observer::cie1931);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(chromaticity(red)[i], kRec709Primaries[0][i], 1e-9);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(chromaticity(red)[i], kRec709.red[i], 1e-9);
   EXPECT_NEAR(red[1], 21.26, 0.02) << "luminance of the primary [BT709]";
   expect_rgb_near(linear_rgb(Curve(0.25)), {0.25, 0.25, 0.25}, 1e-12);
 }

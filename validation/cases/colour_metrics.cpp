@@ -7,6 +7,7 @@
 #include "io/table.h"
 #include "spectral/color_temperature.h"
 #include "spectral/interpolation.h"
+#include "spectral/library.h"
 #include "spectral/rgb.h"
 #include "spectral/sources.h"
 #include "validation/cases/suites.h"

@@ -9,6 +9,7 @@
 #include "sensor/readout/photon_transfer.h"
 #include "sensor/readout/readout.h"
 #include "sensor/response/channel.h"
+#include "spectral/library.h"
 #include "spectral/sources.h"
 #include "validation/cases/suites.h"
 #include "validation/cases/tables.h"

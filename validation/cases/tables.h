@@ -58,10 +58,6 @@ template <typename T>
   Diagnostics diagnostics;
   return shipped(load_illuminant(name, {}, diagnostics), diagnostics).curve;
 }
-[[nodiscard]] inline Curve shipped_curve(const std::string& folder, const std::string& name) {
-  Diagnostics diagnostics;
-  return shipped(load_curve(folder, name, {}, diagnostics), diagnostics).curve;
-}
 [[nodiscard]] inline std::vector<Channel> shipped_camera(const std::string& name) {
   Diagnostics diagnostics;
   return shipped(load_camera(name, {}, diagnostics), diagnostics);
