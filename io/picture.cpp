@@ -221,12 +221,9 @@ struct Turn {
 
 // Orientations 5 to 8 exchange rows and columns and then reflect like 1 to 4. Nothing for any other text.
 std::optional<Turn> turn_of(const std::string& text) {
-  for (int orientation = 1; orientation <= 8; ++orientation) {
-    const int quarter = (orientation - 1) % 4;
-    if (text == std::to_string(orientation))
-      return Turn{orientation > 4, quarter == 1 || quarter == 2, quarter > 1};
-  }
-  return std::nullopt;
+  if (text.size() != 1 || text[0] < '1' || text[0] > '8') return std::nullopt;
+  const int quarter = (text[0] - '1') % 4;
+  return Turn{text[0] > '4', quarter == 1 || quarter == 2, quarter > 1};
 }
 
 // The displayed plane, which has `columns` columns and `rows` rows.
@@ -277,9 +274,8 @@ Image read_picture(const std::filesystem::path& path, Inputs* inputs) {
     require_image_size(path.string(), header.width, header.height, channels);
     const std::size_t floats = static_cast<std::size_t>(header.width * header.height) * channels;
     reservation.reserve(path.string(), floats * sizeof(float));
-    if (inputs)
-      inputs->reserve_memory(path.string(),
-                             floats * sizeof(float));  // The memory of the image, which stays reserved.
+    // The memory of the image stays reserved.
+    if (inputs) inputs->reserve_memory(path.string(), floats * sizeof(float));
     values.resize(floats);
     return values.data();
   });

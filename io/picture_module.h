@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,20 +11,15 @@
 
 namespace abbe::picture_module {
 
-/// The bytes of a DNG file, written by libtiff and checked by reading them back. Throws Error{output}, which
-/// names the file `path`; it is not written.
+// The functions of `PictureCodec` of these names.
 std::string encode_dng(const std::string& path, const RawPicture& raw);
-
-/// The bytes of a FITS file, written by cfitsio and checked by reading them back. Throws as `encode_dng`.
 std::string encode_fits(const std::string& path, const RawPicture& raw);
+RawPicture read_dng(const std::string& path);
+RawPicture read_fits(const std::string& path);
 
 /// True if the file has a PNG signature, but is truncated or has a chunk with a wrong checksum [PNG]. False
 /// for a file that is not a PNG. OpenImageIO must not read a damaged file: libpng would print to stderr.
 bool is_damaged_png(const std::string& path);
-
-/// The data of the first chunk of that type, such as "gAMA", before the pixels of a PNG file. Nothing if
-/// there is none, and for a file that is not a PNG.
-std::optional<std::vector<std::uint8_t>> png_chunk(const std::string& path, std::string_view type);
 
 /// Colour properties that a picture file declares; "" if it declares none.
 struct DeclaredColors {
@@ -50,18 +44,8 @@ struct LibraryColors {
 /// not report. An unreadable file declares nothing.
 DeclaredColors declared_colors(const std::string& path, const LibraryColors& library);
 
-/// Colour properties of an ICC profile [ICC], without its name. The tone curve of a grey profile suffices if
-/// `is_grey`; such a profile has no primaries. The encoding is unsupported if the profile:
-/// - has colour lookup tables, or lacks tone curves or primaries;
-/// - has different tone curves for its channels;
-/// - has tone curves that are neither powers nor the sRGB curve.
-DeclaredColors icc_colors(std::span<const std::uint8_t> profile, bool is_grey);
-
 /// The big-endian 32-bit integer at offset `at`; 0 if `bytes` is too short.
 std::uint32_t big_endian(std::span<const std::uint8_t> bytes, std::size_t at);
-
-/// The numbers with six significant digits, separated by blanks, as in `kPrimariesKey`.
-std::string numbers_text(const std::vector<double>& numbers);
 
 /// Properties in the header of a Radiance picture.
 struct RadianceHeader {
@@ -76,13 +60,15 @@ struct RadianceHeader {
 /// not positive, or GAMMA is not 1.
 RadianceHeader radiance_header(const std::string& path);
 
-/// Interleaves `planes` planes of equal size that a file stores one after the other: the result is pixel by
-/// pixel.
-std::vector<std::uint16_t> pixel_by_pixel(const std::vector<std::uint16_t>& codes, std::size_t planes);
-
-/// Read the raw picture `path`, as `read_raw_picture` describes. They throw Error{input}, and Error{resource}
-/// above the limits of `io/image.h`.
-RawPicture read_dng(const std::string& path);
-RawPicture read_fits(const std::string& path);
+/// Interleaves `planes` planes of equal size that a file stores one after the other.
+template <typename T>
+std::vector<T> pixel_by_pixel(const std::vector<T>& values, std::size_t planes) {
+  const std::size_t pixels = values.size() / planes;
+  std::vector<T> by_pixel;
+  by_pixel.reserve(values.size());
+  for (std::size_t i = 0; i < pixels; ++i)
+    for (std::size_t plane = 0; plane < planes; ++plane) by_pixel.push_back(values[plane * pixels + i]);
+  return by_pixel;
+}
 
 }  // namespace abbe::picture_module

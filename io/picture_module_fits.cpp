@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -11,6 +10,8 @@
 #include <sstream>
 #include <string_view>
 #include <utility>
+
+#include <boost/algorithm/string.hpp>
 
 #include "io/error.h"
 #include "io/image.h"
@@ -62,19 +63,13 @@ std::string bayer_pattern(const RawPicture& raw) {
   return raw.mosaic_width == 2 && raw.mosaic.size() == 4 && letters.size() == 4 ? letters : "";
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ",") + name;
-  return all;
-}
-
 // Writes the keywords that astronomy programs read, and the metadata as history.
 void write_header(Header header, const RawPicture& raw) {
   fits_write_key_longwarn(header.fits, &header.status);
   header.text("CREATOR", "Abbe", "program that made this file");
   if (!raw.camera.empty()) header.text("INSTRUME", raw.camera, "camera");
   header.text("ROWORDER", "TOP-DOWN", "the first row is the top of the picture");
-  header.text("PLANES", joined(raw.planes), "planes along the third axis");
+  header.text("PLANES", boost::algorithm::join(raw.planes, ","), "planes along the third axis");
   if (raw.exposure_s) header.number("EXPTIME", *raw.exposure_s, "[s] exposure time");
   header.number("GAIN", raw.gain_e_per_dn, "[electron/adu] conversion gain");
   header.number("EGAIN", raw.gain_e_per_dn, "[electron/adu] the same, as others call it");
@@ -105,8 +100,7 @@ std::vector<std::uint16_t> plane_by_plane(const RawPicture& raw) {
 // True if the codes, plane by plane, read back from the encoded file.
 bool reads_back(std::string& bytes, const std::vector<std::uint16_t>& codes) {
   int status = 0;
-  // It does not own the bytes.
-  MemoryFits file;
+  MemoryFits file;  // It does not own the bytes.
   void* data = bytes.data();
   std::size_t size = bytes.size();
   fits_open_memfile(&file.fits, "memory", READONLY, &data, &size, 0, nullptr, &status);
@@ -142,8 +136,7 @@ void read_pattern(fitsfile* fits, const std::string& path, RawPicture& raw) {
   constexpr std::string_view kLetters = "RGB";
   const std::string recorded = text_of(fits, "BAYERPAT");
   if (recorded.empty() || raw.planes.size() != 1) return;
-  std::string pattern = recorded;
-  for (char& c : pattern) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const std::string pattern = boost::to_upper_copy(recorded);
   if (pattern.size() != 4 || pattern.find_first_not_of(kLetters) != std::string::npos) {
     if (raw.metadata.contains("mosaic")) return;
     throw Error(
@@ -161,12 +154,8 @@ void read_pattern(fitsfile* fits, const std::string& path, RawPicture& raw) {
 // Names of the planes as listed in `PLANES` of Abbe's files. Without them, three planes are red, green and
 // blue, as astronomy programs write them.
 std::vector<std::string> plane_names(const std::string& recorded, std::size_t count) {
-  std::vector<std::string> names(1);
-  for (const char c : recorded)
-    if (c == ',')
-      names.emplace_back();
-    else
-      names.back() += c;
+  std::vector<std::string> names;
+  boost::split(names, recorded, [](char c) { return c == ','; });
   if (names.size() == count && !names.front().empty()) return names;
   if (count == 3) return {"R", "G", "B"};
   names.clear();
@@ -309,21 +298,7 @@ void flip(RawPicture& raw) {
   if (!raw.corrected.empty()) flip_rows(raw.corrected);
 }
 
-template <typename T>
-std::vector<T> interleaved(const std::vector<T>& values, std::size_t planes) {
-  const std::size_t pixels = values.size() / planes;
-  std::vector<T> by_pixel;
-  by_pixel.reserve(values.size());
-  for (std::size_t i = 0; i < pixels; ++i)
-    for (std::size_t plane = 0; plane < planes; ++plane) by_pixel.push_back(values[plane * pixels + i]);
-  return by_pixel;
-}
-
 }  // namespace
-
-std::vector<std::uint16_t> pixel_by_pixel(const std::vector<std::uint16_t>& codes, std::size_t planes) {
-  return interleaved(codes, planes);
-}
 
 RawPicture read_fits(const std::string& path) {
   int status = 0;
@@ -349,11 +324,11 @@ RawPicture read_fits(const std::string& path) {
   const std::size_t pixels = static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
   raw.black_level_dn = pedestal_of(file.fits, path);
   std::vector<float> corrected;
-  raw.codes =
-      interleaved(is_float ? read_float_codes(file.fits, path, pixels * planes, raw.black_level_dn, corrected)
-                           : read_codes(file.fits, path, pixels * planes),
-                  planes);
-  raw.corrected = interleaved(corrected, planes);
+  raw.codes = pixel_by_pixel(
+      is_float ? read_float_codes(file.fits, path, pixels * planes, raw.black_level_dn, corrected)
+               : read_codes(file.fits, path, pixels * planes),
+      planes);
+  raw.corrected = pixel_by_pixel(corrected, planes);
   if (text_of(file.fits, "ROWORDER") == "BOTTOM-UP") flip(raw);
   read_history(file.fits, raw);
   read_pattern(file.fits, path, raw);
