@@ -37,12 +37,6 @@ struct Tags {
   std::vector<double> primaries = {};  // x and y of red, green, blue and white.
 };
 
-struct Pixels {
-  const png_byte* first;
-  std::size_t row_bytes;
-  int bits;
-};
-
 [[noreturn]] void on_error(png_structp write, const char* message) {
   static_cast<Png*>(png_get_error_ptr(write))->error = message;
   png_longjmp(write, 1);
@@ -97,46 +91,34 @@ void write_tags(const Png& png, const Tags& tags) {
 
 // Returns false if libpng fails. libpng then jumps back here, so nothing in between may have a destructor.
 bool write(Png& png, const PictureHeader& header, const Tags& tags, const std::vector<png_text>& texts,
-           const Pixels& pixels) {
+           const PictureCodes& codes) {
   if (setjmp(png_jmpbuf(png.write)) != 0) return false;
+  const bool is_wide = std::holds_alternative<std::vector<std::uint16_t>>(codes);
+  const std::size_t values_of_row = static_cast<std::size_t>(header.width) * header.channels.size();
+  const auto* row =
+      std::visit([](const auto& values) { return reinterpret_cast<const png_byte*>(values.data()); }, codes);
   png_set_write_fn(png.write, &png, append, nullptr);
   png_set_IHDR(png.write, png.info, static_cast<png_uint_32>(header.width),
-               static_cast<png_uint_32>(header.height), pixels.bits,
+               static_cast<png_uint_32>(header.height), is_wide ? 16 : 8,
                header.channels.size() == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   write_tags(png, tags);
   png_set_text(png.write, png.info, texts.data(), static_cast<int>(texts.size()));
   png_write_info(png.write, png.info);
-  if (pixels.bits == 16) png_set_swap(png.write);
-  for (std::int64_t y = 0; y < header.height; ++y)
-    png_write_row(png.write, pixels.first + static_cast<std::size_t>(y) * pixels.row_bytes);
+  if (is_wide) png_set_swap(png.write);
+  for (std::int64_t y = 0; y < header.height; ++y, row += values_of_row * (is_wide ? 2 : 1))
+    png_write_row(png.write, row);
   png_write_end(png.write, nullptr);
   return true;
 }
 
-Pixels pixels_of(const PictureHeader& header, const PictureCodes& codes) {
-  const std::size_t row = static_cast<std::size_t>(header.width) * header.channels.size();
-  return std::visit(
-      [row](const auto& values) {
-        const auto bytes = sizeof values[0];
-        return Pixels{reinterpret_cast<const png_byte*>(values.data()), row * bytes,
-                      static_cast<int>(8 * bytes)};
-      },
-      codes);
-}
-
-// The bytes of a PNG file with one channel, as grey, or three, as red, green and blue, with 8 or 16 bits as
-// `codes` has. The metadata become text chunks. `kColorSpace` decides the colour chunks:
-// - "sRGB" writes that of sRGB;
-// - "Linear", and "Gamma" with an exponent, write a gamma and `kPrimariesKey`;
-// - other values write none.
-// `path` names the file in errors. Throws Error{output} if libpng fails.
+// The bytes of a PNG file with one or three channels. The metadata become text chunks; `kColorSpace` decides
+// the colour chunks (`tags_of`). `path` names the file in errors. Throws Error{output} if libpng fails.
 std::string encode_png(const std::string& path, const PictureHeader& header, const PictureCodes& codes) {
   Png png;
   png.write = png_create_write_struct(PNG_LIBPNG_VER_STRING, &png, on_error, ignore_warning);
   if (png.write != nullptr) png.info = png_create_info_struct(png.write);
-  const bool written =
-      png.info != nullptr && write(png, header, tags_of(header), texts_of(header), pixels_of(header, codes));
+  const bool written = png.info != nullptr && write(png, header, tags_of(header), texts_of(header), codes);
   png_destroy_write_struct(&png.write, &png.info);
   if (!written) throw Error(ErrorCode::output, path, "libpng: " + png.error);
   return std::move(png.bytes);

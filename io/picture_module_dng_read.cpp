@@ -251,6 +251,10 @@ void apply_opcodes(const std::vector<PixelOpcode>& opcodes, const OpcodeImage& i
   for (const PixelOpcode& opcode : opcodes) apply_opcode(opcode, image);
 }
 
+[[noreturn]] void refuse(TIFF* tiff, const std::string& message) {
+  throw Error(ErrorCode::input, TIFFFileName(tiff), message);
+}
+
 // Reads the description, whose lines "key: value" `set_names` wrote.
 void read_lines(TIFF* tiff, RawPicture& raw) {
   char* lines = nullptr;
@@ -289,12 +293,10 @@ std::vector<std::uint8_t> read_pattern(TIFF* tiff, std::int64_t& width) {
   if (TIFFGetField(tiff, TIFFTAG_CFAREPEATPATTERNDIM, &repeats) != 1 ||
       TIFFGetField(tiff, TIFFTAG_CFAPATTERN, &count, &filters) != 1 || count == 0 ||
       count != repeats[0] * repeats[1])
-    throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "the mosaic pattern is missing (CFARepeatPatternDim, CFAPattern)");
+    refuse(tiff, "the mosaic pattern is missing (CFARepeatPatternDim, CFAPattern)");
   if (const std::uint8_t max_filter = *std::max_element(filters, filters + count); max_filter > 2)
-    throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "the mosaic has filters other than red, green and blue (got number " +
-                    std::to_string(max_filter) + ", allowed 0 to 2)");
+    refuse(tiff, "the mosaic has filters other than red, green and blue (got number " +
+                     std::to_string(max_filter) + ", allowed 0 to 2)");
   width = repeats[1];
   return {filters, filters + count};
 }
@@ -325,7 +327,7 @@ void read_level(TIFF* tiff, std::uint32_t tag, const char* name, double& level) 
     std::ostringstream differs;
     differs << "filters or planes differ in their " << name << " (got " << *lowest << " to " << *highest
             << ", allowed one value)";
-    throw Error(ErrorCode::input, TIFFFileName(tiff), differs.str());
+    refuse(tiff, differs.str());
   }
   level = static_cast<double>(*levels);
 }
@@ -348,9 +350,9 @@ void require_even_black(TIFF* tiff) {
     const float* deltas = nullptr;
     if (TIFFGetField(tiff, tag, &count, &deltas) == 1 &&
         std::any_of(deltas, deltas + count, [](float delta) { return delta != 0; }))
-      throw Error(ErrorCode::input, TIFFFileName(tiff),
-                  "rows or columns differ in their black level (BlackLevelDeltaV or BlackLevelDeltaH; "
-                  "allowed one value)");
+      refuse(tiff,
+             "rows or columns differ in their black level (BlackLevelDeltaV or BlackLevelDeltaH; "
+             "allowed one value)");
   }
 }
 
@@ -365,7 +367,7 @@ void keep_active_area(TIFF* tiff, RawPicture& raw) {
   const std::size_t right = area[3];
   const auto width = static_cast<std::size_t>(raw.width);
   if (top >= bottom || left >= right || bottom > static_cast<std::size_t>(raw.height) || right > width)
-    throw Error(ErrorCode::input, TIFFFileName(tiff), "the ActiveArea is not inside the image");
+    refuse(tiff, "the ActiveArea is not inside the image");
   const std::size_t planes = raw.planes.size();
   std::vector<std::uint16_t> active;
   active.reserve((bottom - top) * (right - left) * planes);
@@ -409,9 +411,7 @@ void apply_later_opcodes(TIFF* tiff, RawPicture& raw) {
   for (const std::uint16_t code : raw.codes)
     raw.corrected.push_back(static_cast<float>(code - raw.black_level_dn));
   const double unit = raw.white_level_dn - raw.black_level_dn;
-  if (!(unit > 0))
-    throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "the white level must exceed the black level to apply opcodes");
+  if (!(unit > 0)) refuse(tiff, "the white level must exceed the black level to apply opcodes");
   OpcodeImage image{raw.width, raw.height, raw.planes.size(), raw.corrected, unit};
   apply_opcodes(stored.opcodes, image);
   image.mosaic = raw.mosaic;
@@ -436,14 +436,12 @@ void require_codes(TIFF* tiff) {
   TIFFGetField(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
   if (bits != 16 || TIFFIsTiled(tiff) != 0)
-    throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "the raw picture is not stored as strips of 16-bit numbers (got " +
-                    std::string(TIFFIsTiled(tiff) != 0 ? "tiles" : "strips") + " of " + std::to_string(bits) +
-                    " bits); convert it to an uncompressed DNG with a raw converter");
+    refuse(tiff, "the raw picture is not stored as strips of 16-bit numbers (got " +
+                     std::string(TIFFIsTiled(tiff) != 0 ? "tiles" : "strips") + " of " +
+                     std::to_string(bits) + " bits); convert it to an uncompressed DNG with a raw converter");
   if (format != SAMPLEFORMAT_UINT)
-    throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "the raw picture is not stored as unsigned integers (got SampleFormat " +
-                    std::to_string(format) + ", allowed 1)");
+    refuse(tiff, "the raw picture is not stored as unsigned integers (got SampleFormat " +
+                     std::to_string(format) + ", allowed 1)");
 }
 
 // Type of the picture in a TIFF folder.
@@ -474,18 +472,17 @@ void find_raw(TIFF* tiff) {
   if (TIFFGetField(tiff, TIFFTAG_SUBIFD, &count, &within) == 1)
     for (const toff_t folder : std::vector<toff_t>(within, within + count))
       if (TIFFSetSubDirectory(tiff, folder) == 1 && kind_of(tiff).is_raw()) return;
-  throw Error(ErrorCode::input, TIFFFileName(tiff),
-              "no raw picture in the file (got NewSubfileType " + std::to_string(first.subfile) +
-                  " and PhotometricInterpretation " + std::to_string(first.photometric) +
-                  " first, allowed 0 and 32803 or 34892, or such a picture among its SubIFDs)");
+  refuse(tiff, "no raw picture in the file (got NewSubfileType " + std::to_string(first.subfile) +
+                   " and PhotometricInterpretation " + std::to_string(first.photometric) +
+                   " first, allowed 0 and 32803 or 34892, or such a picture among its SubIFDs)");
 }
 
 void require_rectangular(TIFF* tiff) {
   std::uint16_t layout = 1;
   TIFFGetField(tiff, TIFFTAG_CFALAYOUT, &layout);
   if (layout != 1)
-    throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "the mosaic filters are staggered (got CFALayout " + std::to_string(layout) + ", allowed 1)");
+    refuse(tiff,
+           "the mosaic filters are staggered (got CFALayout " + std::to_string(layout) + ", allowed 1)");
 }
 
 // Reads all strips. False if libtiff cannot decompress them.

@@ -171,36 +171,29 @@ bool append_utf8(const std::u16string& units, std::string& text) {
   return true;
 }
 
-// Converts Windows-1252 to UTF-8 up to the first byte that is not a letter. Removes the converted bytes from
-// `bytes`.
-std::string taken_from_windows_1252(std::string_view& bytes) {
+// Converts the source from Windows-1252 to UTF-8. Reports the first byte that is not a letter, and returns
+// nullptr.
+std::shared_ptr<const SourceText> from_windows_1252(const std::shared_ptr<SourceText>& source,
+                                                    Diagnostics& diagnostics, ErrorCode code) {
   const iconv_t converter = ::iconv_open("UTF-8", "WINDOWS-1252");
   // iconv reports an error by this pointer value.
   if (std::bit_cast<std::intptr_t>(converter) == -1)
     throw Error(ErrorCode::input, "", "the C library of this system does not convert Windows-1252");
+  std::string bytes = std::move(source->text);
   std::string text(3 * bytes.size(), '\0');  // A letter takes at most three bytes.
-  auto* from = const_cast<char*>(bytes.data());
+  char* from = bytes.data();
   std::size_t left = bytes.size();
   char* to = text.data();
   std::size_t space_left = text.size();
   ::iconv(converter, &from, &left, &to, &space_left);
   ::iconv_close(converter);
-  bytes.remove_prefix(bytes.size() - left);
   text.resize(text.size() - space_left);
-  return text;
-}
-
-// The source in UTF-8, if all bytes are letters of Windows-1252.
-std::shared_ptr<const SourceText> from_windows_1252(const std::shared_ptr<SourceText>& source,
-                                                    Diagnostics& diagnostics, ErrorCode code) {
-  const std::string bytes = std::move(source->text);
-  std::string_view left = bytes;
-  source->text = taken_from_windows_1252(left);
-  if (left.empty()) return checked(source, diagnostics, code);
-  return refuse(source, source->text.size(),
-                fmt::format("neither UTF-8 nor Windows-1252 (got byte 0x{:02X})",
-                            static_cast<unsigned char>(left.front())),
-                code, diagnostics);
+  source->text = std::move(text);
+  if (left == 0) return checked(source, diagnostics, code);
+  return refuse(
+      source, source->text.size(),
+      fmt::format("neither UTF-8 nor Windows-1252 (got byte 0x{:02X})", static_cast<unsigned char>(*from)),
+      code, diagnostics);
 }
 }  // namespace
 

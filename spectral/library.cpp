@@ -182,16 +182,13 @@ void extend_a(NamedCurve& a) {
   a.high_nm = kMaxWavelengthNm;
 }
 
-// Illuminant E has equal power at all wavelengths.
-void extend_e(NamedCurve& e) {
-  e.curve = extrapolated(e);
-  e.low_nm = kMinWavelengthNm;
-  e.high_nm = kMaxWavelengthNm;
-}
-
+// Extends illuminant A by its formula, and E by its equal power at all wavelengths.
 void extend_by_definition(std::string_view name, NamedCurve& illuminant) {
   if (name == "A" || name == "cie_A" || name == "cie_A:A") extend_a(illuminant);
-  if (name == "E" || name == "cie_E" || name == "cie_E:E") extend_e(illuminant);
+  if (name != "E" && name != "cie_E" && name != "cie_E:E") return;
+  illuminant.curve = extrapolated(illuminant);
+  illuminant.low_nm = kMinWavelengthNm;
+  illuminant.high_nm = kMaxWavelengthNm;
 }
 
 /// Temperature of "family:<K>" if `name` is of that family. Reports a temperature outside [low, high] and

@@ -7,11 +7,10 @@
 namespace abbe {
 
 /// Defining constants of the SI (2019).
-inline constexpr double kPlanck = 6.62607015e-34;             ///< Planck constant h [J s].
-inline constexpr double kSpeedOfLight = 299792458.0;          ///< Speed of light c [m/s].
-inline constexpr double kBoltzmann = 1.380649e-23;            ///< Boltzmann constant k [J/K].
-inline constexpr double kElementaryCharge = 1.602176634e-19;  ///< Elementary charge e [C].
-inline constexpr double kAvogadro = 6.02214076e23;            ///< Avogadro constant N_A [1/mol].
+inline constexpr double kPlanck = 6.62607015e-34;     ///< Planck constant h [J s].
+inline constexpr double kSpeedOfLight = 299792458.0;  ///< Speed of light c [m/s].
+inline constexpr double kBoltzmann = 1.380649e-23;    ///< Boltzmann constant k [J/K].
+inline constexpr double kAvogadro = 6.02214076e23;    ///< Avogadro constant N_A [1/mol].
 
 /// Energy of a photon [J]: hc/lambda. Wavelengths in air count as those in vacuum here and in
 /// `planck_radiance`.

@@ -149,35 +149,6 @@ void collect_owners(const JsonValue& json, const Fields& fields, std::string_vie
   }
 }
 
-bool read_list(const JsonValue& json, const List& list, void* value, Diagnostics& diagnostics) {
-  if (list.allows_single && !std::holds_alternative<JsonValue::Array>(json.value))
-    return read(json, *list.element, list.append(value, json.where), diagnostics);
-  const JsonValue::Array* elements = read_array(json, list.what, list.min_size, diagnostics);
-  if (!elements) return false;
-  // There may be many vectors: report the first error only.
-  const bool is_vector_list = std::holds_alternative<Vector>(list.element->variant);
-  list.reserve(value, elements->size());
-  bool valid = true;
-  for (const JsonValue& element : *elements) {
-    valid = read(element, *list.element, list.append(value, element.where), diagnostics) && valid;
-    if (is_vector_list && !valid) return false;
-  }
-  return valid;
-}
-
-bool read_by_name(const JsonValue& json, const ByName& group, void* value, Diagnostics& diagnostics) {
-  const auto* members = std::get_if<JsonValue::Object>(&json.value);
-  if (!members || members->size() < group.min_size) {
-    diagnostics.error(json.where,
-                      fmt::format("expected {} (got {})", group.what, members ? "none" : json.type_name()));
-    return false;
-  }
-  bool valid = true;
-  for (const auto& [name, member] : *members)
-    valid = read(member, *group.element, group.append(value, name, member.where), diagnostics) && valid;
-  return valid;
-}
-
 bool fits(const JsonValue& json, const Form& form) {
   constexpr Json kTypes[] = {Json::any, Json::any, Json::number, Json::text, Json::list, Json::object};
   if (form.json == Json::any) return true;
@@ -195,47 +166,6 @@ bool fits_misspelt(const JsonValue& json, const Form& form) {
   return object != nullptr && std::ranges::any_of(*object, [&](const JsonValue::Member& member) {
            return nearest_name(member.first, keys).has_value();
          });
-}
-
-bool read_form(const JsonValue& json, const Forms& forms, void* value, Diagnostics& diagnostics) {
-  for (const Form& form : forms.forms)
-    if (fits(json, form) || fits_misspelt(json, form))
-      return read(json, *form.alternative.type, form.alternative.emplace(value, json.where), diagnostics);
-  diagnostics.error(json.where, fmt::format("expected {} (got {})", forms.expected, json.type_name()));
-  return false;
-}
-
-// Reads integers. Each is reported at its own position.
-bool read_integers(const JsonValue& json, const Vector& vector, void* value, Diagnostics& diagnostics) {
-  if (!read_numbers(json, vector.count, Range::any(), diagnostics)) return false;
-  bool valid = true;
-  for (std::size_t i = 0; i < vector.count; ++i) {
-    const auto read = read_integer(std::get<JsonValue::Array>(json.value)[i], vector.range, diagnostics);
-    if (read) vector.set(value, i, static_cast<double>(*read));
-    valid = valid && read;
-  }
-  return valid;
-}
-
-bool read_vector(const JsonValue& json, const Vector& vector, void* value, Diagnostics& diagnostics) {
-  if (vector.integers) return read_integers(json, vector, value, diagnostics);
-  const auto numbers = read_numbers(json, vector.count, vector.range, diagnostics);
-  if (!numbers) return false;
-  for (std::size_t i = 0; i < vector.count; ++i) vector.set(value, i, (*numbers)[i]);
-  if (!vector.nonzero || std::ranges::any_of(*numbers, [](double x) { return x != 0; })) return true;
-  diagnostics.error(json.where, fmt::format("a direction must not be zero (got [{}])",
-                                            fmt::join(std::vector<int>(vector.count, 0), ", ")));
-  return false;
-}
-
-// Reads a name, or a number in place of its digits.
-bool read_enumeration(const JsonValue& json, const Enumeration& type, void* value, Diagnostics& diagnostics) {
-  const auto* number = type.accepts_numbers ? std::get_if<double>(&json.value) : nullptr;
-  const auto read =
-      number ? read_choice({fmt::format("{}", *number), json.where}, type.what, type.names, diagnostics)
-             : read_choice(json, type.what, type.names, diagnostics);
-  if (read) type.set(value, *read);
-  return read.has_value();
 }
 
 template <typename T>
@@ -261,15 +191,70 @@ struct ReadValue {
   }
   bool operator()(const Boolean&) const { return store(read_boolean(json, diagnostics), value); }
   bool operator()(const Text&) const { return store(read_string(json, diagnostics), value); }
-  bool operator()(const Enumeration& type) const { return read_enumeration(json, type, value, diagnostics); }
-  bool operator()(const Vector& type) const { return read_vector(json, type, value, diagnostics); }
+  // A name, or a number in place of its digits.
+  bool operator()(const Enumeration& type) const {
+    const auto* number = type.accepts_numbers ? std::get_if<double>(&json.value) : nullptr;
+    const auto read =
+        number ? read_choice({fmt::format("{}", *number), json.where}, type.what, type.names, diagnostics)
+               : read_choice(json, type.what, type.names, diagnostics);
+    if (read) type.set(value, *read);
+    return read.has_value();
+  }
+  bool operator()(const Vector& type) const {
+    const auto numbers =
+        read_numbers(json, type.count, type.integers ? Range::any() : type.range, diagnostics);
+    if (!numbers) return false;
+    bool valid = true;
+    for (std::size_t i = 0; i < type.count; ++i) {
+      const JsonValue& element = std::get<JsonValue::Array>(json.value)[i];
+      if (type.integers && !read_integer(element, type.range, diagnostics))
+        valid = false;
+      else
+        type.set(value, i, (*numbers)[i]);
+    }
+    if (!type.nonzero || std::ranges::any_of(*numbers, [](double x) { return x != 0; })) return valid;
+    diagnostics.error(json.where, fmt::format("a direction must not be zero (got [{}])",
+                                              fmt::join(std::vector<int>(type.count, 0), ", ")));
+    return false;
+  }
   bool operator()(const Numbers& type) const {
     return store(read_numbers(json, 0, type.range, diagnostics), value);
   }
   bool operator()(const Struct& type) const { return read(json, type.fields(), value, diagnostics); }
-  bool operator()(const List& type) const { return read_list(json, type, value, diagnostics); }
-  bool operator()(const ByName& type) const { return read_by_name(json, type, value, diagnostics); }
-  bool operator()(const Forms& type) const { return read_form(json, type, value, diagnostics); }
+  bool operator()(const List& list) const {
+    if (list.allows_single && !std::holds_alternative<JsonValue::Array>(json.value))
+      return read(json, *list.element, list.append(value, json.where), diagnostics);
+    const JsonValue::Array* elements = read_array(json, list.what, list.min_size, diagnostics);
+    if (!elements) return false;
+    // There may be many vectors: report the first error only.
+    const bool is_vector_list = std::holds_alternative<Vector>(list.element->variant);
+    list.reserve(value, elements->size());
+    bool valid = true;
+    for (const JsonValue& element : *elements) {
+      valid = read(element, *list.element, list.append(value, element.where), diagnostics) && valid;
+      if (is_vector_list && !valid) return false;
+    }
+    return valid;
+  }
+  bool operator()(const ByName& group) const {
+    const auto* members = std::get_if<JsonValue::Object>(&json.value);
+    if (!members || members->size() < group.min_size) {
+      diagnostics.error(json.where,
+                        fmt::format("expected {} (got {})", group.what, members ? "none" : json.type_name()));
+      return false;
+    }
+    bool valid = true;
+    for (const auto& [name, member] : *members)
+      valid = read(member, *group.element, group.append(value, name, member.where), diagnostics) && valid;
+    return valid;
+  }
+  bool operator()(const Forms& forms) const {
+    for (const Form& form : forms.forms)
+      if (fits(json, form) || fits_misspelt(json, form))
+        return read(json, *form.alternative.type, form.alternative.emplace(value, json.where), diagnostics);
+    diagnostics.error(json.where, fmt::format("expected {} (got {})", forms.expected, json.type_name()));
+    return false;
+  }
 };
 
 // The object that an array replaces.
