@@ -58,8 +58,7 @@ class Diagnostics {
     error(where, std::move(message), code);
     return std::nullopt;
   }
-  /// Reports an input that can be used but probably gives a wrong result: an error if strict, otherwise a
-  /// warning.
+  /// Reports an input that can be used but probably gives a wrong result: an error if strict.
   void error_if_strict(const SourcePosition& where, std::string message);
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
@@ -69,8 +68,8 @@ class Diagnostics {
   /// Code of the error reported first, or `ErrorCode::internal` if there is none.
   [[nodiscard]] ErrorCode code() const;
 
-  /// All warnings and the first `limit` errors, in order, each formatted by `format` and ended by a newline.
-  /// A final line counts the further errors. Empty without diagnostics.
+  /// All warnings and the first `limit` errors, in order, as lines of `format`. A final line counts the
+  /// further errors.
   [[nodiscard]] std::string text(std::size_t limit = 20) const;
 
  private:
@@ -79,12 +78,9 @@ class Diagnostics {
   Strictness strictness_ = Strictness::lenient;
 };
 
-/// `file:line:col: /pointer: error: message`, followed by the source line and a caret below the column.
-/// Without a trailing newline.
-/// - Lines and columns start at 1; a column is a code point.
-/// - An empty pointer is omitted.
-/// - Control characters and invalid UTF-8 are replaced by "?", and long lines are cut around the column.
-/// - The whole file as position omits line, column and excerpt. No source omits the file as well.
+/// `file:line:col: /pointer: error: message`, followed by the source line and a caret below the column. Lines
+/// and columns start at 1; a column is a code point. Control characters and invalid UTF-8 are replaced by
+/// "?", and long lines are cut around the column. The whole file as position omits line, column and excerpt.
 [[nodiscard]] std::string format(const Diagnostic& diagnostic);
 
 /// The candidate with the smallest edit distance to `name`, the first of equals; ASCII case is ignored.
@@ -98,8 +94,8 @@ class Diagnostics {
 [[nodiscard]] std::string unknown_name(std::string_view kind, std::string_view name,
                                        std::span<const std::string> candidates);
 
-/// Thrown if the inputs of a command contain errors. It carries all diagnostics. Its text is
-/// `Diagnostics::text`, with or without a first line "invalid input".
+/// Thrown if the inputs of a command contain errors. Its text is `Diagnostics::text`, with or without a first
+/// line "invalid input".
 struct InvalidInput : Error {
   InvalidInput(ErrorCode code, const std::string& message, std::vector<Diagnostic> all)
       : Error(code, "", message), diagnostics(std::move(all)) {}

@@ -16,11 +16,8 @@ namespace abbe {
 [[nodiscard]] std::size_t default_memory_limit();
 
 /// Accounts for the files that a command reads and for the memory of files and films, which is reserved
-/// before it is allocated. Not thread-safe. Not included are:
-/// - memory that libraries use while they read;
-/// - the edge table of a mesh while it is checked;
-/// - Embree's acceleration structures;
-/// - films of pilot renders.
+/// before it is allocated. Memory of libraries, the edge table of a mesh, Embree's acceleration structures
+/// and pilot films are not included. Not thread-safe.
 class Inputs {
  public:
   explicit Inputs(std::size_t memory_limit_bytes = default_memory_limit()) : limit_(memory_limit_bytes) {}
@@ -44,8 +41,8 @@ class Inputs {
 /// Owns reserved memory and releases it when destroyed. Its `Inputs` must outlive it.
 class MemoryReservation {
  public:
-  /// Takes over `bytes` that the caller has already reserved in `inputs`; it reserves nothing itself.
-  /// `inputs` may be nullptr; then nothing is counted.
+  /// Takes over `bytes` that the caller has reserved in `inputs`, which may be nullptr: nothing is counted
+  /// then.
   MemoryReservation(Inputs* inputs, std::size_t bytes) : inputs_(inputs), bytes_(bytes) {}
   MemoryReservation(MemoryReservation&& other) noexcept
       : inputs_(std::exchange(other.inputs_, nullptr)), bytes_(other.bytes_) {}

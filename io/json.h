@@ -41,14 +41,10 @@ struct JsonValue::Member {
 };
 
 /// Parses JSON with `//` and `/* */` comments and trailing commas. Reports an error of the code `scene` and
-/// returns nothing for:
-/// - truncated or empty text, or text after the value;
-/// - duplicate keys;
-/// - NaN, infinities and numbers outside the range of double;
-/// - strings with NUL or half a surrogate pair;
-/// - nesting deeper than 256 levels and JSON pointers longer than 1024 bytes.
-/// Reserves the memory of the values and of a copy of the text in `memory`, if not nullptr. Throws
-/// Error{resource} if that exceeds the limit.
+/// returns nothing for text that is not JSON, duplicate keys, and strings with NUL or half a surrogate pair.
+/// NaN, infinities and numbers outside the range of double are errors, too. Nesting is limited to 256 levels,
+/// and JSON pointers to 1024 bytes. Reserves the memory of the values and of a copy of the text in `memory`,
+/// if not nullptr. Throws Error{resource} if that exceeds the limit.
 [[nodiscard]] std::optional<JsonValue> parse_json(const std::shared_ptr<const SourceText>& source,
                                                   Diagnostics& diagnostics,
                                                   MemoryReservation* memory = nullptr);
@@ -64,8 +60,8 @@ struct JsonValue::Member {
 /// Sets the value at a JSON pointer (RFC 6901), such as "/render/samples", in `root`; the empty pointer
 /// replaces `root`. `text` is JSON. Text that is not JSON, such as a bare word or path, is taken as a string.
 /// Missing objects on the path are created. The index after the last element of an array, or "-", appends.
-/// Reports errors of the code `usage`, which name the text `option_name`, for an invalid pointer, text that
-/// begins with "[", "{" or a double quote but is not JSON, and invalid UTF-8.
+/// Reports errors of the code `usage`, which name the text `option_name`, for an invalid pointer and invalid
+/// UTF-8. Text that begins with "[", "{" or a double quote must be JSON.
 /// After an error the value is not set, but objects on its path may have been created.
 void set_json(JsonValue& root, std::string_view pointer, std::string_view text, Diagnostics& diagnostics,
               std::string_view option_name = "--set");
@@ -98,8 +94,7 @@ class ValueTree {
   /// Adds a null, boolean, number or string to the innermost open container, or as the root. False, with a
   /// report, if it is rejected; parsing must end then.
   bool add(decltype(JsonValue::value) value, std::size_t offset);
-  /// Adds an empty array or object; the following values are added to it until `close`. False, with a report,
-  /// if it is rejected.
+  /// Adds an empty array or object, to which values are added until `close`. The result is that of `add`.
   bool open(decltype(JsonValue::value) container, std::size_t offset);
   /// Closes the innermost open container, and reports duplicate keys of an object.
   void close();

@@ -17,8 +17,7 @@ inline constexpr double kLargestFloat = std::numeric_limits<float>::max();
 /// Largest magnitude of an integer: 2^53 - 1, up to which integers are exact in double.
 inline constexpr double kLargestInteger = 9007199254740991;
 
-/// An interval of allowed numbers from `low` to `high`. The default is without bounds; NaN is outside every
-/// interval.
+/// An interval of allowed numbers; NaN is outside every interval.
 struct Range {
   double low = -std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::max();
@@ -65,8 +64,8 @@ struct Range {
                                                  std::size_t min_size, Diagnostics& diagnostics);
 /// The members of an object. Reports anything else and returns nullptr.
 [[nodiscard]] const JsonValue::Object* read_object(const JsonValue& value, Diagnostics& diagnostics);
-/// The only one of `keys` that `object` has, as a view of `keys`. Reports if it has none, a misspelt one or
-/// several, and returns nothing. Returns nothing without a report if `object` is not an object.
+/// The only one of `keys` that `object` has. Reports if it has none, a misspelt one or several. Nothing,
+/// without a report, if `object` is not an object.
 [[nodiscard]] std::optional<std::string_view> choose_key(const JsonValue& object,
                                                          std::span<const std::string_view> keys,
                                                          Diagnostics& diagnostics);

@@ -10,11 +10,10 @@ enum class ModuleScope {
   shared  ///< Other modules may use them (RTLD_GLOBAL).
 };
 
-/// Address of the function `name` that the module `module` exports, a file name such as "libx.so". Never
-/// nullptr. Modules are shared libraries that few commands need or few machines have.
-/// A module is opened when its first function is requested and stays open. It is found along the program's
-/// run path (RUNPATH or LD_LIBRARY_PATH). Thread-safe. Throws Error{input}, calling the module `description`,
-/// if it is missing, does not load or lacks the function.
+/// Address of the function `name` that the module `module` exports, a file name such as "libx.so". Modules
+/// are found along the program's run path (RUNPATH or LD_LIBRARY_PATH), opened at the first request and stay
+/// open. Thread-safe. Throws Error{input}, calling the module `description`, if it is missing, does not load
+/// or lacks the function.
 [[nodiscard]] void* module_function(const char* module, const char* name, ModuleScope scope,
                                     const std::string& description);
 

@@ -26,9 +26,8 @@ void write_part_file(const std::filesystem::path& path, const std::map<std::stri
 /// Reads a file, all of it into memory. Throws Error{input} if it is missing, has another format, is
 /// truncated or does not match its hash.
 [[nodiscard]] PartFile read_part_file(const std::filesystem::path& path);
-/// Reads the header only, without the length and the hash; the cost does not depend on the number of bytes.
-/// Throws Error{input} like `read_part_file`, except that neither a changed header nor changed bytes are
-/// detected.
+/// Reads the header only, without the length and the hash. Throws Error{input} like `read_part_file`, except
+/// that changed contents are not detected.
 [[nodiscard]] std::map<std::string, std::string> read_part_file_header(const std::filesystem::path& path);
 
 }  // namespace abbe

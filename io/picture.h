@@ -8,13 +8,11 @@
 
 namespace abbe {
 
-/// Writes an 8-bit picture of the first three channels, or of the first as grey if there are fewer. Values
-/// are display code values in [0, 1]; they are clamped and rounded, and NaN is 0. `kColorSpace` declares
-/// their encoding; without it they are sRGB.
-/// The extension chooses the format (.png, .jpg, .tif). Only a PNG file records encodings and primaries other
-/// than those of sRGB. Atomic.
-/// Throws Error{output} if the format is unknown or the file cannot be written. Throws Error{input} if the
-/// picture module, which formats other than PNG need, does not load. Throws Error{internal} for an image
+/// Writes an 8-bit picture of the first three channels, or of the first as grey, atomically. Values are
+/// display code values in [0, 1]; they are clamped and rounded, and NaN is 0. They are sRGB unless
+/// `kColorSpace` declares another encoding, which only a PNG file records. The extension chooses the format
+/// (.png, .jpg, .tif). Throws Error{output} if the format is unknown or the file cannot be written. Throws
+/// Error{input} if the picture module, which formats other than PNG need, does not load, and Error{internal}
 /// without pixels.
 void write_picture(const std::filesystem::path& path, const Image& image);
 
@@ -23,23 +21,19 @@ void write_picture(const std::filesystem::path& path, const Image& image);
 [[nodiscard]] std::string encoded_picture(const std::string& extension, const Image& image);
 
 /// Writes integers from 0 to 65535, such as the codes of a sensor, as a linear 16-bit picture: one or three
-/// channels as .png, any number as .tif. Atomic.
-/// Throws Error{output} for other channel counts, for an unknown format, or if the file cannot be written.
-/// Throws Error{input} if the picture module, which formats other than PNG need, does not load. Throws
-/// Error{internal} for other values and an image without pixels. The picture module
-/// also encodes any other extension that it knows, with one or three channels.
+/// channels as .png, any number as .tif. Throws as `write_picture`, also Error{output} for other channel
+/// counts and Error{internal} for other values.
 void write_raw_picture(const std::filesystem::path& path, const Image& image);
 
 /// Reads a picture in any format of OpenImageIO.
 /// - Channels are floats; integer files are scaled to [0, 1].
 /// - Pixels are in the order of the file; `kOrientation` is not applied.
-/// - An alpha channel is called "A"; the other channels are as stored, not multiplied or divided by alpha.
+/// - An alpha channel is called "A"; the others are as stored, not multiplied or divided by alpha.
 /// - The values of a Radiance file are divided by the exposure and colour factors of its header.
-/// - `inputs`, if not nullptr, reserves the memory of the channels, which stays reserved. The file is not
-///   added to its list.
+/// - `inputs`, if not nullptr, reserves the memory of the channels, which stays reserved.
 /// Throws Error{input} if the file is missing or damaged, is not a two-dimensional image, or the picture
-/// module does not load. Throws Error{resource}, judging from the header, if the image exceeds the limits of
-/// `io/image.h` or the memory left in `inputs`.
+/// module does not load. Throws Error{resource}, judging from the header, above the limits of `io/image.h` or
+/// the memory left in `inputs`.
 [[nodiscard]] Image read_picture(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 /// Reads an image file: .exr by `read_exr`, other formats by `read_picture`, with their errors. `kColorSpace`
@@ -55,7 +49,7 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image);
 inline constexpr const char* kOrientation = "Orientation";
 
 /// The image as displayed: `kOrientation` is applied to all channels and removed. Pixels are unchanged if it
-/// is absent or not a number from 1 to 8. Numbers from 5 on exchange width and height.
+/// is absent or not a number from 1 to 8.
 [[nodiscard]] Image apply_orientation(Image image);
 
 }  // namespace abbe

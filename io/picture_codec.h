@@ -37,27 +37,22 @@ inline constexpr const char* kProfileKey = "icc_profile";
 using PictureCodes = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>>;
 
 /// Function table of the picture module, which uses OpenImageIO, libtiff and cfitsio. OpenImageIO loads some
-/// 250 shared libraries, which takes a fifth of a second. The module is therefore opened when a picture is
-/// first read, or written in a format other than PNG. It shares no state with the program: it works on its
-/// arguments and throws `Error`.
+/// 250 shared libraries, which takes a fifth of a second, so the module is opened at the first use. It shares
+/// no state with the program: it works on its arguments and throws `Error`.
 struct PictureCodec {
   /// The bytes of a file in the format that the extension of `path` names, checked by reading their size
-  /// back. `path` also names the file in errors; it is not written. Throws Error{output}, also for an unknown
-  /// extension.
+  /// back. The file is not written. Throws Error{output}, also for an unknown extension.
   std::string (*encode)(const std::string& path, const PictureHeader& header, const PictureCodes& codes);
 
-  /// Reads the file `path`. `allocate` is called once with its header and returns the destination: width *
-  /// height * channels floats, pixel by pixel, scaled to [0, 1] for integer files. It may throw. Channels
-  /// next to alpha are as stored; values of a Radiance file are divided by the factors of its header. Throws
-  /// Error{input} if the file is damaged or not a two-dimensional image.
+  /// Reads the file `path` as `read_picture` describes. `allocate` is called once with its header and returns
+  /// the destination: width * height * channels floats, pixel by pixel. It may throw.
   void (*read)(const std::string& path, const std::function<float*(const PictureHeader&)>& allocate);
 
   /// The bytes of a DNG file (libtiff) and of a FITS file (cfitsio), checked by reading them back. They throw
-  /// Error{output}, which names the file `path`. No encoder writes that file.
+  /// Error{output}, which names the file `path`; it is not written.
   std::string (*encode_dng)(const std::string& path, const RawPicture& raw);
   std::string (*encode_fits)(const std::string& path, const RawPicture& raw);
-  /// Read the DNG or FITS file `path`, as `read_raw_picture` describes. They throw Error{input}, and
-  /// Error{resource} above the limits of `io/image.h`.
+  /// Read the DNG or FITS file `path`, as `read_raw_picture` describes.
   RawPicture (*read_dng)(const std::string& path);
   RawPicture (*read_fits)(const std::string& path);
 };
@@ -65,8 +60,7 @@ struct PictureCodec {
 /// Name of the exported function that returns the module's `const PictureCodec*`.
 inline constexpr const char* kPictureCodecSymbol = "abbe_picture_codec";
 
-/// The function table. The first call opens the module, which is found along the program's run path (RUNPATH
-/// or LD_LIBRARY_PATH). Throws Error{input} if it is missing or does not load.
+/// The function table. The first call opens the module and throws as `module_functions`.
 [[nodiscard]] const PictureCodec& picture_codec();
 
 }  // namespace abbe

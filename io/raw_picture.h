@@ -29,8 +29,7 @@ struct DngOpcode {
   [[nodiscard]] std::string text() const { return name + " of OpcodeList" + std::to_string(list); }
 };
 
-/// Sensor codes [DN] as a raw file stores them, with the properties that raw developers need. A property that
-/// a reader does not find has its default.
+/// Sensor codes [DN] as a raw file stores them. A property that a reader does not find has its default.
 struct RawPicture {
   std::int64_t width = 0;
   std::int64_t height = 0;

@@ -45,9 +45,9 @@ struct SpectralName {
   char kind;         ///< '0' to '3' for the Stokes component S0 (radiance) to S3, 'T' for a reflectance.
   double center_nm;  ///< Converted from a frequency f by c/f if the name states one.
 };
-/// Parses the name of a spectral channel, in any unit of metres or hertz. Returns nothing for other channels.
-/// Throws Error{input}, which names the file `where`, if a name begins and ends like a spectral one but is
-/// malformed, such as without a number.
+/// Parses the name of a spectral channel, in any unit of metres or hertz. Nothing for other channels. Throws
+/// Error{input}, which names the file `where`, if a name begins and ends like a spectral one but is
+/// malformed.
 [[nodiscard]] std::optional<SpectralName> parse_spectral_channel(std::string_view name,
                                                                  const std::string& where);
 
@@ -65,11 +65,9 @@ struct SpectralName {
 [[nodiscard]] Image spectral_layout(const SpectralImage& image);
 
 /// Inverse of `spectral_layout`, with bands in ascending order. S3 of left-handed images changes its sign.
-/// Throws Error{input}, which names the file `where`, if the image:
-/// - lacks a required attribute, or has another version or unit;
-/// - contains reflectances, fewer than two bands, or a band twice;
-/// - has only some of S1, S2 and S3, or has them at other wavelengths than S0;
-/// - has a malformed spectral name.
+/// Throws Error{input}, which names the file `where`, if a required attribute is missing or has another
+/// value. Throws it for malformed spectral names, reflectances, fewer than two bands, and a band twice. S1,
+/// S2 and S3 must be all present or absent, and have the wavelengths of S0.
 [[nodiscard]] SpectralImage spectral_image(Image image, const std::string& where);
 
 }  // namespace abbe

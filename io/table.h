@@ -29,8 +29,7 @@ struct Provenance {
 };
 
 /// A table of numbers or words. The CSV file has `# key: value` lines (title, unit, source, status,
-/// processing, outside, and others), then the column names, then the rows. Cells have no surrounding blanks
-/// and may be empty.
+/// processing, outside, and others), then the column names, then the rows.
 struct Table {
   Provenance provenance;
   /// All `# key: value` lines above the column names, including those of `provenance`.
@@ -43,11 +42,9 @@ struct Table {
 
   /// Index of the column called `name`, if there is one.
   [[nodiscard]] std::optional<std::size_t> column(std::string_view name) const;
-  /// The values of column number `column`, by row. Reports each empty or malformed cell with the code `input`
-  /// and returns nothing then.
+  /// The values of column number `column`, by row. Reports each cell that is no number with the code `input`.
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::size_t column,
                                                            Diagnostics& diagnostics) const;
-  /// Source position of row number `row`, from 0 on, for diagnostics.
   [[nodiscard]] SourcePosition position(std::size_t row) const;
 };
 
@@ -64,11 +61,10 @@ enum class TableOrigin {
 /// Reads a table of UTF-8 text with cells separated by commas. Cells may be quoted ("a, b"). Reports with the
 /// code `input` and returns nothing for:
 /// - a missing or unreadable file, a byte order mark;
-/// - missing provenance keys, repeated keys, an unknown rule `outside`;
-/// - cells separated by semicolons or tabs, rows of a wrong length, no rows;
-/// - empty or duplicate column names, a quoted cell without its closing quote;
-/// - a governing key below the column names, or followed by "=" instead of ":".
-/// An oversized file is reported with the code `resource`.
+/// - missing provenance keys, repeated keys, an unknown rule `outside`, a governing key below the column
+///   names, or followed by "=" instead of ":";
+/// - cells separated by semicolons or tabs, an unclosed quote, rows of a wrong length, no rows;
+/// - empty or duplicate column names.
 [[nodiscard]] std::optional<Table> read_table(const std::filesystem::path& path, TableOrigin origin,
                                               Diagnostics& diagnostics);
 
@@ -96,23 +92,21 @@ struct TableColumn {
 [[nodiscard]] std::optional<TableColumn> find_table(std::string_view folder, const std::string& name,
                                                     const SourcePosition& where, Diagnostics& diagnostics);
 
-/// The names that `find_table` accepts in a folder, in byte order; none for an unknown folder. `stem:column`
-/// is listed only if the column name alone is not accepted. Throws Error{input} if the data directory is
-/// missing.
+/// The names that `find_table` accepts in a folder, in byte order; `stem:column` only if the column name
+/// alone is not accepted. Throws Error{input} if the data directory is missing.
 [[nodiscard]] std::vector<std::string> table_names(std::string_view folder);
 
-/// A table of reference values in the folder `reference` of `data_directory`, accessed by row number from 0
-/// on and by column name. Validation compares computed values with it.
+/// A table of reference values in the folder `reference` of `data_directory`, accessed by row number and by
+/// column name.
 class ReferenceTable {
  public:
   /// Reads the file `name` + ".csv". Throws Error{input} if it is missing or malformed.
   explicit ReferenceTable(const std::string& name);
 
   [[nodiscard]] std::size_t rows() const { return table_.rows.size(); }
-  /// The text of a cell. Throws Error{input} for a missing row or column.
+  /// The text or number of a cell. Throw Error{input} for a missing row or column, or if it is not a finite
+  /// number.
   [[nodiscard]] const std::string& text(std::size_t row, std::string_view column) const;
-  /// The number of a cell, in the unit that the table declares. Throws Error{input} also if it is not a
-  /// finite number.
   [[nodiscard]] double number(std::size_t row, std::string_view column) const;
 
  private:

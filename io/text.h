@@ -21,17 +21,16 @@ inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// Reads a regular file of at most `limit_bytes` of UTF-8 text, without its byte order mark. Reports with
 /// `code` and returns nullptr for a missing file, a folder, a FIFO or device, a NUL byte and invalid UTF-8.
-/// An oversized file is reported with the code `resource`.
+/// An oversized file has the code `resource`.
 [[nodiscard]] std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path,
                                                           Diagnostics& diagnostics,
                                                           ErrorCode code = ErrorCode::input,
                                                           std::size_t limit_bytes = kMaxTextBytes);
-/// Reads a text in UTF-8, UTF-16 or Windows-1252 of at most kMaxTextBytes and converts it to UTF-8 without a
-/// byte order mark.
-/// - UTF-16 is recognised by its byte order mark, or by a zero byte in the first letter.
-/// - Any other text that is not UTF-8 is taken as Windows-1252, which includes Latin-1.
-/// Reports and returns nullptr as `read_text`, and for unpaired surrogates and bytes without a letter in
-/// Windows-1252. Throws Error{input} if the C library cannot convert Windows-1252.
+/// Reads a text in UTF-8, UTF-16 or Windows-1252 and converts it to UTF-8 without a byte order mark. UTF-16
+/// is recognised by its byte order mark, or by a zero byte in the first letter; any other text that is not
+/// UTF-8 is taken as Windows-1252. Reports and returns nullptr as `read_text`, and for unpaired surrogates
+/// and bytes without a letter in Windows-1252. Throws Error{input} if the C library cannot convert
+/// Windows-1252.
 [[nodiscard]] std::shared_ptr<const SourceText> read_unicode_text(const std::filesystem::path& path,
                                                                   Diagnostics& diagnostics,
                                                                   ErrorCode code = ErrorCode::input);
@@ -50,9 +49,9 @@ inline constexpr const char* kStandardInputName = "<stdin>";
 /// `read_text`.
 [[nodiscard]] std::shared_ptr<const SourceText> read_standard_input(Diagnostics& diagnostics, ErrorCode code);
 
-/// The reason why `path` cannot be read. "no such file" also if a folder on the way is not accessible, "not a
-/// regular file" for a folder, device, FIFO or socket. Files in /proc, /sys and the like are not regular:
-/// reading them may block or never end. Nothing for a regular file on disk; its permissions are not checked.
+/// The reason why `path` cannot be read. "no such file" also if a folder on the way is not accessible. "not a
+/// regular file" for a folder, device, FIFO or socket, and in /proc, /sys and the like, which may block.
+/// Nothing for a regular file on disk; its permissions are not checked.
 [[nodiscard]] std::optional<std::string> file_fault(const std::filesystem::path& path);
 /// Throws Error{input} with the text of `file_fault`, if there is one.
 void require_file(const std::filesystem::path& path);
@@ -61,12 +60,10 @@ void require_file(const std::filesystem::path& path);
 [[nodiscard]] bool is_file(const std::filesystem::path& path, const SourcePosition& where,
                            Diagnostics& diagnostics);
 
-/// The extension of a file name in lower case, such as ".exr"; "" if there is none. File types are recognised
-/// in either case, since cameras write upper-case extensions.
+/// The extension of a file name in lower case, such as ".exr"; "" if there is none.
 [[nodiscard]] std::string extension_of(const std::filesystem::path& path);
 
-/// Throws Error{usage} unless the extension is one of `allowed`, which are in lower case with a dot, such as
-/// ".exr". The path may have it in either case.
+/// Throws Error{usage} unless the extension, in either case, is one of `allowed`, which are such as ".exr".
 void require_extension(const std::filesystem::path& path, std::initializer_list<const char*> allowed);
 
 /// Number of leading bytes that are valid UTF-8 without NUL; the whole size for valid text.
@@ -76,9 +73,9 @@ void require_extension(const std::filesystem::path& path, std::initializer_list<
 /// other encodings.
 [[nodiscard]] std::string valid_utf8(std::string_view text, std::string_view replacement = "\uFFFD");
 
-/// Parses all of `text` as a finite decimal number in the syntax of the C locale, whatever the process's
-/// locale. A leading sign is allowed, blanks and hexadecimal digits are not. Nothing if that fails, or if the
-/// number is outside the range of double.
+/// Parses all of `text` as a finite decimal number in the syntax of the C locale. A leading sign is allowed,
+/// blanks and hexadecimal digits are not. Nothing if that fails, or if the number is outside the range of
+/// double.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
 /// The pieces of `text` between separators, without surrounding blanks, tabs and line ends. Pieces may be
@@ -92,7 +89,6 @@ void require_extension(const std::filesystem::path& path, std::initializer_list<
 /// GiB.
 [[nodiscard]] std::string base64(std::string_view bytes);
 
-/// Provenance of a user's file: its name and the SHA-256 of its text.
 [[nodiscard]] std::string user_source(const SourceText& text);
 
 /// SHA-256 of the bytes, as 64 lower-case hexadecimal digits.

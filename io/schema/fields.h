@@ -229,10 +229,8 @@ Field make_field(std::string_view key, Content content, std::string_view text, M
   const T& instance = defaults<T>();
   const auto offset =
       reinterpret_cast<const char*>(&(instance.*member)) - reinterpret_cast<const char*>(&instance);
-  return {key,       std::make_shared<const FieldContent>(std::in_place_type<Content>, std::move(content)),
-          text,      MemberAccess<M>::kPresence,
-          offset,    access<M>(),
-          &typeid(T)};
+  auto shared = std::make_shared<const FieldContent>(std::move(content));
+  return {key, std::move(shared), text, MemberAccess<M>::kPresence, offset, access<M>(), &typeid(T)};
 }
 
 template <typename V, typename A>
