@@ -138,7 +138,6 @@ Image displayed(const Image& stored, const Imath::Box2i& data, Image picture, co
   return picture;
 }
 
-// Pixels of part `number` in its display window.
 Image pixels_of(Imf::MultiPartInputFile& file, int number, const std::string& name) {
   const Imf::Header& header = file.header(number);
   const Imath::Box2i& window = header.dataWindow();

@@ -207,7 +207,6 @@ void put(TextWriter& writer, std::string_view text) {
   writer.String(text.data(), static_cast<rapidjson::SizeType>(text.size()));
 }
 
-// Writes the value and all values inside it.
 void write(TextWriter& writer, const JsonValue& json) {
   if (const auto* array = std::get_if<JsonValue::Array>(&json.value)) {
     writer.StartArray();

@@ -86,7 +86,6 @@ std::size_t rest_of(std::ifstream& file) {
   return static_cast<std::size_t>(rest);
 }
 
-// Opens a file, reads its header and checks the number of its bytes.
 OpenPartFile open_part_file(const fs::path& path) {
   require_file(path);
   OpenPartFile open{std::ifstream(path, std::ios::binary), {}, {}};

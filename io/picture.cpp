@@ -22,7 +22,6 @@ namespace abbe {
 
 namespace {
 
-// State of libpng and its error message.
 struct Png {
   png_structp write = nullptr;
   png_infop info = nullptr;
@@ -30,7 +29,6 @@ struct Png {
   std::string error = {};
 };
 
-// Colour chunks of a file.
 struct Tags {
   bool is_srgb = false;
   std::optional<double> gamma = {};

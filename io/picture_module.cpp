@@ -98,7 +98,6 @@ std::string encode(const std::string& path, const PictureHeader& header, const P
   return std::visit([&](const auto& values) { return encode_spec(path, spec, values.data()); }, codes);
 }
 
-// Divides red, green and blue of `count` pixels by the factors.
 void divide(float* pixels, std::uint64_t count, const std::array<double, 3>& factors) {
   for (std::uint64_t i = 0; i < 3 * count; ++i)
     pixels[i] = static_cast<float>(static_cast<double>(pixels[i]) / factors.at(i % 3));

@@ -289,7 +289,6 @@ DeclaredColors tiff_colors(const std::string& path) {
   return {"", xy == rec709 ? "" : numbers_text(xy), ""};
 }
 
-// True if the flags of a WebP declare an ICC profile.
 bool has_webp_profile(const std::string& path) {
   constexpr unsigned kProfile = 0x20;
   std::ifstream file(path, std::ios::binary);

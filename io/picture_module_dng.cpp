@@ -142,7 +142,6 @@ List ordered(const List& list, const Order& order, std::size_t each = 1) {
   return sorted;
 }
 
-// The picture with its channels in the order of the DNG.
 RawPicture ordered(RawPicture raw) {
   const Order order = order_of(raw.channels);
   if (order == kOwnOrder) return raw;
@@ -197,7 +196,6 @@ std::vector<float> floats(const std::array<double, N>& values) {
   return {values.begin(), values.end()};
 }
 
-// Sets the matrices and numbers of the lights, and the neutral.
 void set_colors(Tags& tags, const RawPicture& raw) {
   struct LightTags {
     std::uint32_t illuminant, color, forward;

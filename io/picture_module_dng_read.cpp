@@ -46,7 +46,6 @@ struct PixelOpcode {
   std::vector<double> polynomial{};  ///< Coefficients of 1, x, x^2 and so on; at most degree 8.
 };
 
-/// An opcode list of a DNG [DNG, ch. 7].
 struct OpcodeList {
   std::vector<PixelOpcode> opcodes;  ///< Supported opcodes, in order.
   std::vector<DngOpcode> names;      ///< All opcodes of the list.
@@ -301,7 +300,6 @@ std::vector<std::uint8_t> read_pattern(TIFF* tiff, std::int64_t& width) {
   return {filters, filters + count};
 }
 
-// Reads the planes and the channels of the mosaic.
 void read_layout(TIFF* tiff, RawPicture& raw) {
   raw.mosaic = read_pattern(tiff, raw.mosaic_width);
   if (raw.mosaic_width > 0) {
@@ -343,7 +341,6 @@ void read_levels(TIFF* tiff, RawPicture& raw) {
   }
 }
 
-// Rejects black levels that differ between rows or columns.
 void require_even_black(TIFF* tiff) {
   for (const std::uint32_t tag : {TIFFTAG_BLACKLEVELDELTAH, TIFFTAG_BLACKLEVELDELTAV}) {
     std::uint16_t count = 0;
@@ -444,7 +441,6 @@ void require_codes(TIFF* tiff) {
                      std::to_string(format) + ", allowed 1)");
 }
 
-// Type of the picture in a TIFF folder.
 struct PictureKind {
   std::uint32_t subfile = 0;
   std::uint16_t photometric = 0;

@@ -202,7 +202,6 @@ double pedestal_of(fitsfile* fits, const std::string& path) {
   throw Error(ErrorCode::input, path, negative.str());
 }
 
-// Reads the codes of all planes, one plane after the other.
 std::vector<std::uint16_t> read_codes(fitsfile* fits, const std::string& path, std::size_t count) {
   std::vector<int> numbers(count);
   int status = 0;
@@ -286,7 +285,6 @@ void open_image(fitsfile** fits, const std::string& path, int& status) {
   }
 }
 
-// Reverses the order of rows.
 void flip(RawPicture& raw) {
   const auto row = static_cast<std::ptrdiff_t>(raw.planes.size()) * raw.width;
   const auto flip_rows = [&](auto& values) {

@@ -69,7 +69,6 @@ void check_polarisation(const Image& image, const std::array<Component, 4>& stok
       refuse(where, fmt::format("S{} has other wavelengths than S0", i));
 }
 
-// Negates S3 of left-handed images.
 void make_right_handed(Image& image, Component& s3) {
   if (std::exchange(image.metadata.at(kHandednessKey), kRightHanded) == kRightHanded) return;
   for (SpectralBand& band : s3)

@@ -219,7 +219,6 @@ class TableReader {
   bool wrongly_separated_ = false;  ///< Cells are not separated by commas; reading stops.
 };
 
-/// The information above the rows of a table.
 struct Heading {
   std::string aliases;
   std::vector<std::string>

@@ -105,7 +105,6 @@ bool read_source(int descriptor, const std::shared_ptr<SourceText>& source, Diag
   return false;
 }
 
-// Reads a regular file. nullptr after an error.
 std::shared_ptr<SourceText> read_source(const std::filesystem::path& path, Diagnostics& diagnostics,
                                         ErrorCode code, std::size_t limit_bytes) {
   auto source = std::make_shared<SourceText>(SourceText{path.string(), {}});

@@ -39,12 +39,9 @@ struct TristimulusWeights {
 [[nodiscard]] XYZ astm_tristimulus(const TristimulusWeights& weights, const Samples& samples);
 
 /// Reads the samples of a reflectance for `astm_tristimulus` by the name of a table in `data/reflectance`.
-/// Returns those within [360, 780] nm, with wavelengths rounded to whole nanometres. Reports an error, and
-/// returns nothing, for every error of `load_samples` and for a table
-/// - whose step is not constant, or neither 10 nor 20 nm;
-/// - that does not begin a whole number of steps from 360 nm;
-/// - with fewer than two samples within [360, 780] nm;
-/// - whose unit is not a fraction of 1, or with values outside [0, 1].
+/// Returns those within [360, 780] nm, at least two, with wavelengths rounded to whole nanometres. Reports an
+/// error, and returns nothing, unless the step is 10 or 20 nm and the first wavelength is a whole number of
+/// steps from 360 nm. The errors of `load_samples` and of `kReflectanceUse` are reported, too.
 [[nodiscard]] std::optional<Samples> load_astm_samples(const std::string& name, const SourcePosition& where,
                                                        Diagnostics& diagnostics);
 

@@ -23,25 +23,20 @@ struct Chart {
   std::vector<Patch> patches;  ///< In the order of the columns.
 };
 
-/// Reads the table of a chart: one of `data/reflectance` or a user's file, named as for `find_table`. Reports
-/// errors of `find_table` and `read_table`, and returns nothing.
+/// Reads the table of a chart: one of `data/reflectance` or a user's file, named as for `find_table`.
 [[nodiscard]] std::optional<Table> read_chart_table(const std::string& name, const SourcePosition& where,
                                                     Diagnostics& diagnostics);
 /// True if the table contains reflectances over wavelength. Other editions of charts contain colours.
 [[nodiscard]] bool is_spectral(const Table& table);
 
-/// Reads the chart of a table of reflectances, one patch per column, such as
-/// "colorchecker24_babelcolor_average". The folder of `use` must be "reflectance". Reports errors and returns
-/// nothing for
-/// - a table of colours;
-/// - a unit or values that `use` does not allow;
-/// - a column that `load_curve` rejects, such as one that does not cover `needed`.
+/// Reads the chart of a table of reflectances, one patch per column. The folder of `use` must be
+/// "reflectance". Reports errors and returns nothing for a table of colours, a unit or values that `use` does
+/// not allow, and a column that `load_curve` rejects.
 [[nodiscard]] std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
                                               Diagnostics& diagnostics,
                                               const CurveUse& use = kReflectanceFactorUse,
                                               NeededRange needed = {});
-/// Reads the chart of a shipped table. Throws Error, with the code of the first report of `load_chart`, if
-/// the table is missing or faulty.
+/// Reads the chart of a shipped table. Throws Error, with the code of the first report of `load_chart`.
 [[nodiscard]] Chart shipped_chart(const std::string& name);
 
 }  // namespace abbe

@@ -22,8 +22,8 @@ struct ColorMatching {
   Curve y;
   Curve z;
 };
-/// Colour-matching functions of an observer, loaded at the first call, which is thread-safe. Throws
-/// Error{input} if the shipped table is missing.
+/// Colour-matching functions of an observer, loaded at the first call. Thread-safe. Throws Error{input} if
+/// the shipped table is missing.
 [[nodiscard]] const ColorMatching& color_matching(Observer observer);
 
 /// Tristimulus values X, Y and Z. Each function states their scale.
@@ -37,8 +37,7 @@ struct SumRange {
   int low_nm = 360;
   int high_nm = 830;
 };
-/// Range of visible light, to which luminous efficacies refer. Other programs truncate their sums to it; it
-/// is available for comparison with them.
+/// Range of visible light, to which luminous efficacies refer.
 inline constexpr SumRange kVisibleRange{380, 780};
 
 /// Integral of the product of two or three curves [value nm] by a sum over every whole nanometre. It is the

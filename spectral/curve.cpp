@@ -39,7 +39,6 @@ void append(std::vector<Knot>& knots, double wavelength_nm, double left, double 
   if (right != left) knots.push_back({wavelength_nm, right});
 }
 
-/// Restricts the function to exactly [300, 1100] nm.
 std::vector<Knot> cut_to_range(std::span<const Knot> knots) {
   std::vector<Knot> cut;
   cut.reserve(knots.size() + 2);
@@ -65,7 +64,6 @@ SampledSpectrum offsets(const SampledSpectrum& wavelengths_nm) {
   return SampledSpectrum::map(below, [](float nm) { return std::max(kLow, nm); }) - SampledSpectrum(kLow);
 }
 
-/// Wavelengths of the knots of either curve, ascending.
 std::vector<double> breakpoints(const Curve& a, const Curve& b) {
   std::vector<double> all;
   all.reserve(a.knots().size() + b.knots().size());

@@ -50,7 +50,6 @@ class Curve {
   [[nodiscard]] std::span<const Knot> knots() const { return knots_; }
   /// Exact integral [value nm] over [low_nm, high_nm], which is cut to [300, 1100] nm; 0 for an empty range.
   [[nodiscard]] double integral(double low_nm = kMinWavelengthNm, double high_nm = kMaxWavelengthNm) const;
-  /// Largest (smallest) value at any wavelength.
   [[nodiscard]] double max() const { return max_; }
   [[nodiscard]] double min() const { return min_; }
   [[nodiscard]] bool is_constant() const { return min_ == max_; }
@@ -100,9 +99,9 @@ class Curve {
 [[nodiscard]] Curve scaled(const Curve& curve, double factor);
 
 /// Curve through a table of samples, linear between them. Outside them it is 0 for Outside::zero, otherwise
-/// the value of the nearer end. The last row still applies at its own wavelength. Throws Error{internal}
-/// unless there is one finite value for each of at least one strictly ascending wavelengths. Outside::error
-/// counts as a clamp here; the caller checks the coverage, as `load_curve` does.
+/// the value of the nearer end; the caller checks the coverage for Outside::error. The last row still applies
+/// at its own wavelength. Throws Error{internal} unless there is one finite value for each of at least one
+/// strictly ascending wavelengths.
 [[nodiscard]] Curve table_curve(std::span<const double> wavelengths_nm, std::span<const double> values,
                                 Outside outside);
 

@@ -24,7 +24,6 @@ struct UnitMismatch {
 constexpr UnitMismatch kLinearNeeded{
     "linear values: 10^x for log10 x, 10^-D for a density D, 10^(-A/10) for A dB", false};
 
-/// Unit of a radiometric quantity.
 struct QuantityUnit {
   std::string_view name;
   unsigned divisors;

@@ -93,7 +93,7 @@ enum class UnitRole { whole, factor };
                                                     UnitRole role = UnitRole::whole);
 
 /// Warning for the table `name` if a radiance, intensity, irradiance or flux is needed but its unit is
-/// relative, counts or percent; otherwise nothing.
+/// relative.
 [[nodiscard]] std::optional<std::string> relative_power(std::string_view name, std::string_view unit,
                                                         CurveUnit needed);
 
@@ -104,13 +104,12 @@ enum class UnitRole { whole, factor };
 /// efficiencies or a response per photon; otherwise nothing.
 [[nodiscard]] std::optional<std::string> unknown_response(std::string_view name, std::string_view unit);
 
-/// True if the unit and the values of the table `name` satisfy `use`. Otherwise reports an error with the
-/// code `input` at `where` for each that does not, and returns false.
+/// True if the unit and the values of the table `name` satisfy `use`. Otherwise reports each fault at
+/// `where`.
 bool check_use(const std::string& name, const std::string& unit, const Curve& curve, const CurveUse& use,
                const SourcePosition& where, Diagnostics& diagnostics);
 
-/// Reads a curve from the folder of `use`. Reports errors and returns nothing as `load_curve` of a folder
-/// does, and for a unit or values that `use` does not allow.
+/// Reads a curve from the folder of `use`, as `load_curve` of a folder, and checks it by `check_use`.
 [[nodiscard]] std::optional<NamedCurve> load_curve(const CurveUse& use, const std::string& name,
                                                    const SourcePosition& where, Diagnostics& diagnostics,
                                                    NeededRange needed = {});

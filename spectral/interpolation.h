@@ -43,15 +43,13 @@ struct SampleFault {
 /// The first sample whose step differs from the step before it by more than 1e-6 of a step, or nothing.
 [[nodiscard]] std::optional<SampleFault> step_fault(std::span<const double> wavelengths_nm);
 
-/// Explains why a rule cannot interpolate at these wavelengths: too few samples or uneven steps. Nothing if
-/// it can.
+/// Explains why a rule cannot interpolate at these wavelengths; nothing if it can.
 [[nodiscard]] std::optional<SampleFault> interpolation_fault(std::span<const double> wavelengths_nm,
                                                              Interpolation rule);
 
-/// Function through the samples by `rule`, resampled so that linear interpolation represents it: at the
-/// samples and at every whole nanometre of [300, 1100] between them. Interpolated values are clamped to [low,
-/// high], samples are not. The caller ensures that `interpolation_fault` finds nothing. Linear samples are
-/// returned unchanged.
+/// Function through the samples by `rule`, resampled for linear interpolation: at the samples and at every
+/// whole nanometre of [300, 1100] between them. Interpolated values are clamped to [low, high], samples are
+/// not. The caller ensures that `interpolation_fault` finds nothing.
 [[nodiscard]] Samples every_nanometre(Samples samples, Interpolation rule, double low, double high);
 
 }  // namespace abbe

@@ -40,9 +40,8 @@ struct TableSamples {
   Samples samples;  ///< One per row.
 };
 
-/// Reads the samples of the curve `name` of a data folder at any wavelengths. Names are those of
-/// `load_curve`. Reports the same errors and returns nothing, except that it checks neither coverage nor
-/// misspelt keys.
+/// Reads the samples of the curve `name` of a data folder at any wavelengths. Names and reports are those of
+/// `load_curve`, which also checks coverage and misspelt keys.
 [[nodiscard]] std::optional<TableSamples> load_samples(std::string_view folder, const std::string& name,
                                                        const SourcePosition& where, Diagnostics& diagnostics);
 
@@ -67,28 +66,25 @@ struct TableSamples {
 /// The curve `name` of a shipped table. Throws Error{input} if `load_curve` reports an error.
 [[nodiscard]] Curve shipped_curve(std::string_view folder, const std::string& name);
 
-/// Reads a column of a parsed table. `name` only becomes the name of the curve. Reports errors like
-/// `load_curve`.
+/// Reads a column of a parsed table. `name` only becomes the name of the curve.
 [[nodiscard]] std::optional<NamedCurve> curve_of(const Table& table, const std::string& column,
                                                  const std::string& name, Diagnostics& diagnostics,
                                                  NeededRange needed = {});
 
 /// Explains why a table or formula valid on [low_nm, high_nm] is useless: all of it lies outside [300, 1100]
-/// nm. Nothing if some of it lies inside.
+/// nm.
 [[nodiscard]] std::optional<std::string> range_fault(double low_nm, double high_nm);
 
-/// Explains that a curve leaves the allowed range, with the wavelength and value of its first knot outside.
-/// Nothing if it does not.
+/// Explains that a curve leaves the allowed range, by its first knot outside. Nothing if it does not.
 [[nodiscard]] std::optional<std::string> value_fault(const Curve& curve, const Range& allowed);
 
-/// CIE daylight of correlated colour temperature `kelvin` in [4000, 25000] K, which the caller checks. Named
-/// "daylight:<K>"; relative, 100 at 560 nm and 0 above 830 nm. Throws like `daylight`.
+/// CIE daylight of correlated colour temperature `kelvin` in [4000, 25000] K, which the caller checks. Throws
+/// like `daylight`.
 [[nodiscard]] NamedCurve named_daylight(double kelvin);
 
 /// Reads an illuminant by name: a table of `data/illuminant` as for `load_curve`, "blackbody:<K>" with 100 to
 /// 1e6 K or "daylight:<K>" with 4000 to 25000 K. Black bodies are radiances [W/(m^2 sr nm)]; tables have any
-/// unit of power per nm. Reports errors and returns nothing for other temperatures, negative values, other
-/// units and all errors of `load_curve`.
+/// unit of power per nm.
 [[nodiscard]] std::optional<NamedCurve> load_illuminant(const std::string& name, const SourcePosition& where,
                                                         Diagnostics& diagnostics, NeededRange needed = {});
 
@@ -104,8 +100,7 @@ inline constexpr double kNegligibleFraction = 1e-3;
 /// is {1100, 300}.
 [[nodiscard]] NeededRange main_range(const Curve& curve);
 
-/// Curve of a table, extrapolated by the constants of its first and last row, whatever `table.outside`
-/// declares.
+/// Curve of a table, extrapolated by its first and last row, whatever `table.outside` declares.
 [[nodiscard]] Curve extrapolated(const NamedCurve& table);
 
 }  // namespace abbe

@@ -92,7 +92,6 @@ struct Conditions {
   }
 };
 
-// Solves six conditions for six unknowns to double precision.
 Eigen::VectorXd fit() {
   constexpr double kDone = 1e-12;
   Eigen::VectorXd u(kUnknowns);

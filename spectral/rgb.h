@@ -29,8 +29,7 @@ struct RgbSpace {
 };
 inline constexpr RgbSpace kRec709{{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, kD65};  ///< [BT709]
 
-/// RGB space that an image records in its attribute `kPrimariesKey`: x and y of red, green, blue and white.
-/// Nothing if it records none, or not eight numbers.
+/// RGB space that an image records in its attribute `kPrimariesKey`; nothing without eight numbers.
 [[nodiscard]] std::optional<RgbSpace> recorded_primaries(const Image& image);
 /// Text of an RGB space for the attribute `kPrimariesKey`.
 [[nodiscard]] std::string primaries_text(const RgbSpace& space);
@@ -62,8 +61,7 @@ struct Encoding {
 };
 inline constexpr Encoding kLinearEncoding{1.0};
 
-/// Encoding that an image records in its attribute `kColorSpace`; sRGB if it records none. Nothing for an
-/// unknown colour space.
+/// Encoding that an image records in `kColorSpace`; sRGB if it records none, nothing for an unknown one.
 [[nodiscard]] std::optional<Encoding> recorded_encoding(const Image& image);
 
 /// Three smooth reflectances in [0, 1] that add up to 1 at every wavelength [Mallett2019]. Their colours
@@ -76,8 +74,7 @@ struct RgbBasis {
   Curve green;
   Curve blue;
 };
-/// The basis, computed at the first call, which is thread-safe. Throws Error{input} if a shipped table is
-/// missing, Error{internal} if the fit does not converge.
+/// The basis, computed at the first call. Thread-safe. Throws Error{input} if a shipped table is missing.
 [[nodiscard]] const RgbBasis& rgb_basis();
 
 /// Mixture of the basis with the weights `rgb`, each >= 0. Its values lie between the smallest and largest

@@ -21,7 +21,7 @@ inline constexpr double kAvogadro = 6.02214076e23;    ///< Avogadro constant N_A
 /// Spectral radiance of a black body [W m^-2 sr^-1 nm^-1] at `temperature_K` > 0 and a wavelength > 0
 /// [Planck1901]. Checks neither.
 [[nodiscard]] double planck_radiance(double temperature_K, double wavelength_nm);
-/// Radiance of a black body as a curve [W m^-2 sr^-1 nm^-1], sampled every nanometre from 300 to 1100 nm.
+/// Radiance of a black body as a curve [W m^-2 sr^-1 nm^-1].
 [[nodiscard]] Curve planck(double temperature_K);
 
 /// CIE daylight of correlated colour temperature `cct_K` in [4000, 25000] K [CIE15, eq. 3.3 ff.]. Relative,

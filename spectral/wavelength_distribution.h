@@ -20,9 +20,8 @@ namespace abbe {
 class WavelengthDistribution {
  public:
   /// Constructs the distribution from the emission curves of the lights and the weights of the sensor
-  /// channels, in any units. Negative values count by their magnitude. Ignores pairs without overlap. If none
-  /// overlaps, the density is uniform over the support of the channels, or over the whole range if that is
-  /// empty.
+  /// channels, in any units. Negative values count by their magnitude. If no pair overlaps, the density is
+  /// uniform over the support of the channels, or over the whole range if that is empty.
   WavelengthDistribution(std::span<const Curve> emissions, std::span<const Curve> responses);
 
   /// Distribution whose density is proportional to this one times `importance`. The elements of `importance`,

@@ -77,7 +77,6 @@ std::string alternatives(const std::vector<std::string>& texts) {
   return all.empty() ? last : fmt::format("{} or {}", fmt::join(all, ", "), last);
 }
 
-/// Description of each value type.
 struct TypeText {
   const ValueType& type;
   const Links& links;

@@ -35,8 +35,8 @@ struct Key {
   [[nodiscard]] std::string allowed(const Links& links = {}) const;
 };
 
-/// All keys that an object of one of these structs may have, in the order of their field tables. Keys of
-/// equal name, meaning, type and group are merged into one.
+/// All keys that an object of one of these structs may have, in order. Keys of equal name, meaning, type and
+/// group are merged.
 [[nodiscard]] std::vector<Key> keys_of(std::span<const Fields* const> structs);
 
 /// A struct and the first of the shortest key paths to it.
@@ -54,15 +54,12 @@ struct StructPath {
 [[nodiscard]] std::string with_tables(const std::string& guide, const Fields& root);
 
 /// Help for a key, as lines for a terminal: its meaning, type, range and default, and the keys of objects in
-/// it. `key` is one of:
-/// - a path from the root with '/', through lists and names ("lights/sun/towards"). Numbers of elements and
-///   names that the user chose may be included, as in a JSON pointer.
-/// - a key, which is described at every position where it occurs;
-/// - empty, for the keys of the root.
-/// Throws Error{usage}, with the nearest known key, if a key is unknown.
+/// it. `key` is a path from the root with '/', which may include numbers of elements and names that the user
+/// chose. A key alone is described at every position where it occurs; an empty text gives the keys of the
+/// root. Throws Error{usage}, with the nearest known key, if a key is unknown.
 [[nodiscard]] std::string help(const Fields& root, const std::string& key);
 
-/// Every key of the file and its structs, without paths, each once, in byte order.
+/// Every key of the file and its structs, each once, in byte order.
 [[nodiscard]] std::vector<std::string> all_keys(const Fields& root);
 
 }  // namespace abbe::schema

@@ -37,8 +37,7 @@ struct Named {
   SourcePosition where{};  ///< Position of the value.
 };
 
-/// Type-erased access to the value of a member, whose address is the argument. The value may be in a wrapper,
-/// an optional or a shared pointer.
+/// Type-erased access to the value of a member, whose address is the argument.
 struct MemberFunctions {
   void* (*open)(void* member);             ///< Creates a value if the member may be empty; its address.
   const void* (*get)(const void* member);  ///< Address of the value; nullptr if the member is empty.
@@ -172,8 +171,8 @@ struct Field {
   [[nodiscard]] Field with(Presence other) const;
 };
 
-/// An array that may replace the object of a struct. It has `min_size` to `max_size` values, which belong to
-/// the first keys of the table in its order; null omits a key.
+/// An array that may replace the object of a struct. Its values belong to the first keys of the table, in its
+/// order; null omits a key.
 struct ArrayForm {
   std::size_t min_size;
   std::size_t max_size;
@@ -193,13 +192,12 @@ struct Fields {
   std::optional<ArrayForm> array_form = {};  ///< Allowed for tables of optional single keys only.
   /// Address of a default-constructed struct; set by `fields_of`.
   const void* defaults = nullptr;
-  /// Address of the member `where` of the struct at `instance`, which stores its source position; nullptr if
-  /// it has none. Set by `fields_of`.
+  /// Address of the member `where` of the struct at `instance`; nullptr if it has none. Set by `fields_of`.
   SourcePosition* (*where)(void* instance) = nullptr;
 
   /// This table for a struct that may be written as an array (`ArrayForm`).
   [[nodiscard]] Fields or_array(std::size_t min_size, std::size_t max_size) const;
-  /// The keys that the values of the array belong to, in order; empty without an array form.
+  /// The keys that the values of the array belong to; empty without an array form.
   [[nodiscard]] std::vector<std::string_view> array_keys() const;
 };
 

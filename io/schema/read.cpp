@@ -175,7 +175,6 @@ bool store(std::optional<T> read, void* value) {
   return true;
 }
 
-/// Reads each value type.
 struct ReadValue {
   const JsonValue& json;
   void* value;

@@ -6,11 +6,10 @@
 
 namespace abbe::schema {
 
-/// Reads the struct at `instance` from an object, or from an array if the table has an array form. `instance`
-/// is a default-constructed struct of the table's type. Members whose keys are absent are unchanged.
-/// Reports with the code `scene` missing, unknown and misspelt keys, and values of a wrong type or range.
-/// Returns false if there is an error. Valid keys are read all the same; members with errors are emptied if
-/// they may be empty.
+/// Reads the struct at `instance`, which is default-constructed, from an object, or from an array if the
+/// table has an array form. Members whose keys are absent are unchanged. Reports missing, unknown and
+/// misspelt keys, and values of a wrong type or range. Returns false if there is an error. Valid keys are
+/// read all the same; members with errors are emptied if they may be empty.
 bool read(const JsonValue& json, const Fields& fields, void* instance, Diagnostics& diagnostics);
 
 /// Reads a value of that type from JSON. `value` is the address of an object of the C++ type `type.cpp_type`.

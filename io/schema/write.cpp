@@ -52,7 +52,6 @@ void write_fields(const Fields& fields, const void* instance, Object& into) {
   }
 }
 
-/// Writes each value type.
 struct WriteValue {
   const void* value;
 
@@ -281,7 +280,6 @@ JsonValue array_of(JsonValue items, std::size_t min_size, std::size_t max_size,
   return schema;
 }
 
-/// The JSON schema of each value type.
 struct SchemaOf {
   Definitions& definitions;
 

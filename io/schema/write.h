@@ -10,8 +10,8 @@ namespace abbe::schema {
 [[nodiscard]] inline JsonValue json(decltype(JsonValue::value) value) {
   return {std::move(value), {}};
 }
-/// The JSON object from which `read` makes the struct at `instance`, in the order of its table. Empty members
-/// and optional members with their default are omitted. The object has no source positions.
+/// The JSON object from which `read` makes the struct at `instance`, in the order of its table, without
+/// source positions. Empty members and optional members with their default are omitted.
 [[nodiscard]] JsonValue write(const Fields& fields, const void* instance);
 template <typename T>
 [[nodiscard]] JsonValue write(const T& instance) {
@@ -20,9 +20,8 @@ template <typename T>
 /// JSON of the value at address `value`, an object of the C++ type `type.cpp_type`.
 [[nodiscard]] JsonValue write(const ValueType& type, const void* value);
 
-/// The default of an optional field, for documentation. `defaults` is `Fields::defaults`, the address of a
-/// default-constructed struct. Nothing for other fields, for a member that is absent by default, and for a
-/// default that is infinite or an empty list or object.
+/// The default of an optional field, for documentation. `defaults` is `Fields::defaults`. Nothing for a
+/// member that is absent by default, and for a default that is infinite or an empty list or object.
 [[nodiscard]] std::optional<JsonValue> default_of(const Field& field, const void* defaults);
 
 /// The JSON Schema (draft 2020-12) of a file that contains one such struct, without source positions. It
