@@ -160,12 +160,11 @@ std::optional<double> closed_stop(const spec::LensSystem& spec, const lens::Syst
   if (radius <= widest * (1 + lens::kNominalRounding)) return std::min(radius, widest);
   constexpr int kCells = 16;
   const auto speed = lens::speed(lens::SystemAt(lens, lens.primary_nm()), widest, kCells);
-  context.diagnostics.error(
+  return context.refuse(
       spec.f_number->where,
       fmt::format("the lens cannot open that far (got f/{:g}, allowed {})", spec.f_number->value,
                   speed && std::isfinite(speed->f_number) ? fmt::format("f/{:.4g} or more", speed->f_number)
                                                           : "the aperture of its prescription"));
-  return std::nullopt;
 }
 
 void warn_of_lost_defocus(const spec::LensSystem& spec, const lens::System& lens, LoadContext& context) {
@@ -242,10 +241,9 @@ std::optional<Aperture> build(const spec::Aperture& aperture, double open_fracti
   const char* limit = open_fraction == 1  ? "its f-number"
                       : aperture.f_number ? "its f-number and blades allow"
                                           : "its blades allow";
-  context.diagnostics.error(
+  return context.refuse(
       aperture.t_stop->where,
       fmt::format("a T-stop must not be faster than {} (got {}, allowed [{}, inf))", limit, t_stop, fastest));
-  return std::nullopt;
 }
 
 struct PlacedView {
@@ -257,16 +255,11 @@ std::optional<PlacedView> build(const spec::View& view, const SourcePosition& wh
                                 const LoadContext& context) {
   const Imath::V3d from = view.from * context.unit_m;
   const Imath::V3d sight = view.to * context.unit_m - from;
-  if (sight.length() == 0) {
-    context.diagnostics.error(where, "from and to are the same point: the camera has no viewing direction");
-    return std::nullopt;
-  }
+  if (sight.length() == 0)
+    return context.refuse(where, "from and to are the same point: the camera has no viewing direction");
   const Imath::V3d forward = sight.normalized();
   const Imath::V3d right = forward.cross(view.up.normalized());
-  if (right.length() < 1e-9) {
-    context.diagnostics.error(where, "up is parallel to the viewing direction");
-    return std::nullopt;
-  }
+  if (right.length() < 1e-9) return context.refuse(where, "up is parallel to the viewing direction");
   // A roll by the angle r turns the right axis to cos r right - sin r up, clockwise as the camera looks.
   const Imath::V3d level = right.normalized();
   const double roll = view.roll_deg * std::numbers::pi / 180;
@@ -307,13 +300,11 @@ std::optional<ThinLens> build(const spec::ThinLensCamera& camera, const SourcePo
   if (!view || !aperture) return std::nullopt;
   const double focus = focus_distance(camera.lens, *view, context);
   const double f = camera.lens.focal_length * context.unit_m;
-  if (focus <= f) {
-    context.diagnostics.error(
+  if (focus <= f)
+    return context.refuse(
         camera.lens.where,
         fmt::format("the lens cannot focus within its focal length (got {} m, allowed ({}, inf) m)", focus,
                     f));
-    return std::nullopt;
-  }
   // Solves 1/v = 1/f - 1/s for v, in the form that holds for s = infinity.
   return ThinLens{
       view->frame, f / (1 - f / focus), focus, f / (2 * aperture->f_number), aperture->transmittance, iris};
@@ -340,12 +331,10 @@ std::optional<LensSystem> build(const spec::LensSystem& spec, const CameraFrame&
                                 LoadContext& context) {
   auto lens = load_prescription(spec, context);
   if (!lens) return std::nullopt;
-  if (sensor.spectral) {
-    context.diagnostics.error(spec.where,
-                              "a spectral sensor records radiances, but a real lens images different "
-                              "wavelengths to different pixels: use a thin lens or a pinhole");
-    return std::nullopt;
-  }
+  if (sensor.spectral)
+    return context.refuse(spec.where,
+                          "a spectral sensor records radiances, but a real lens images different "
+                          "wavelengths to different pixels: use a thin lens or a pinhole");
   if (spec.focus && !spec.focus_distance)
     context.diagnostics.warning(
         spec.focus->where,
@@ -362,8 +351,7 @@ std::optional<LensSystem> build(const spec::LensSystem& spec, const CameraFrame&
                                                      spec.ghosts ? Ghosts::enumerated : Ghosts::left_out);
     return LensSystem{frame, optics, optics->has_ghosts()};
   } catch (const Error& error) {
-    context.diagnostics.error(spec.where, error.what());
-    return std::nullopt;
+    return context.refuse(spec.where, error.what());
   }
 }
 

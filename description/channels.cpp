@@ -143,13 +143,11 @@ std::optional<ChannelParts> build_channel_parts(const spec::ChannelResponse& spe
 std::optional<Channel> build_channel(const schema::Named<spec::ChannelResponse>& spec,
                                      const Detector& detector, LoadContext& context) {
   const std::string& name = spec.name;
-  if (!is_plain(name)) {
-    context.diagnostics.error(
+  if (!is_plain(name))
+    return context.refuse(
         spec.where,
         fmt::format("a channel name has at most {} characters: letters, digits, - and _ (got \"{}\")",
                     kMaxNameLength, name));
-    return std::nullopt;
-  }
   std::optional<ChannelParts> parts = build_channel_parts(spec.value, detector, context);
   if (!parts) return std::nullopt;
   Curve& curve = parts->curve;
@@ -303,11 +301,10 @@ std::optional<SpectralBins> build_bins(const spec::Bins& spec, LoadContext& cont
   const double bins = (spec.to_nm - spec.from_nm) / spec.step_nm;
   if (bins > kMinBins - 0.5 && bins < kMaxBins + 0.5 && std::abs(bins - std::round(bins)) < 1e-6)
     return SpectralBins{spec.from_nm, spec.step_nm, static_cast<int>(std::round(bins))};
-  context.diagnostics.error(
+  return context.refuse(
       spec.where,
       fmt::format("the bins do not fill the range (got {} of {} nm in [{}, {}] nm, allowed {} to {})", bins,
                   spec.step_nm, spec.from_nm, spec.to_nm, kMinBins, kMaxBins));
-  return std::nullopt;
 }
 
 void build_channels(const spec::Sensor& spec, Sensor& sensor, LoadContext& context) {

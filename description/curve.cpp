@@ -188,35 +188,26 @@ struct CurveBuilder {
   std::optional<Curve> operator()(std::monostate) const { return std::nullopt; }
   std::optional<Curve> operator()(const spec::TableCurve& table) const {
     const std::vector<double>& wavelengths = table.wavelength_nm;
-    if (table.values.size() != wavelengths.size()) {
-      context.diagnostics.error(
+    if (table.values.size() != wavelengths.size())
+      return context.refuse(
           table.where, fmt::format("as many values as wavelengths are needed (got {} values, allowed {})",
                                    table.values.size(), wavelengths.size()));
-      return std::nullopt;
-    }
-    if (wavelengths.size() < 2) {
-      context.diagnostics.error(
-          table.where, fmt::format("a table needs two samples or more (got {})", wavelengths.size()));
-      return std::nullopt;
-    }
+    if (wavelengths.size() < 2)
+      return context.refuse(table.where,
+                            fmt::format("a table needs two samples or more (got {})", wavelengths.size()));
     const auto step = std::adjacent_find(wavelengths.begin(), wavelengths.end(), std::greater_equal<>());
-    if (step != wavelengths.end()) {
-      context.diagnostics.error(
+    if (step != wavelengths.end())
+      return context.refuse(
           table.where, fmt::format("wavelengths must ascend (got {} nm after {} nm)", *(step + 1), *step));
-      return std::nullopt;
-    }
-    if (auto fault = range_fault(wavelengths.front(), wavelengths.back())) {
-      context.diagnostics.error(table.where, std::move(*fault));
-      return std::nullopt;
-    }
+    if (auto fault = range_fault(wavelengths.front(), wavelengths.back()))
+      return context.refuse(table.where, std::move(*fault));
     return table_curve(wavelengths, table.values, table.outside);
   }
   std::optional<Curve> operator()(const spec::Band& spec) const {
     const auto [low, high] = spec.ends.value;
     if (low < high) return band(low, high, spec.value);
-    context.diagnostics.error(spec.ends.where,
-                              fmt::format("an empty band (got [{}, {}] nm, allowed low < high)", low, high));
-    return std::nullopt;
+    return context.refuse(spec.ends.where,
+                          fmt::format("an empty band (got [{}, {}] nm, allowed low < high)", low, high));
   }
   std::optional<Curve> operator()(const spec::Gaussian& bell) const {
     return gaussian(bell.center_nm, bell.fwhm_nm, bell.peak);
@@ -256,8 +247,7 @@ std::optional<Curve> build(const spec::Curve& curve, const CurveUse& use, LoadCo
   if (!built) return std::nullopt;
   const auto fault = value_fault(*built, use.allowed);
   if (!fault) return built;
-  context.diagnostics.error(curve.where, *fault);
-  return std::nullopt;
+  return context.refuse(curve.where, *fault);
 }
 
 }  // namespace abbe::description

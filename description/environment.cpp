@@ -35,8 +35,7 @@ std::optional<EnvironmentTexels> build(const spec::EnvironmentLight& spec, LoadC
   const auto path = context.file(name, where);
   if (!path) return std::nullopt;
   const auto refuse = [&](const std::string& what) {
-    context.diagnostics.error(where, fmt::format("environment \"{}\": {}", name, what), ErrorCode::input);
-    return std::nullopt;
+    return context.refuse(where, fmt::format("environment \"{}\": {}", name, what), ErrorCode::input);
   };
   const std::string extension = extension_of(*path);
   if (extension != ".exr" && extension != ".hdr")

@@ -177,11 +177,9 @@ std::optional<std::uint32_t> film_material(const spec::Ior& spec, Films& films, 
   std::uint32_t number = 0;
   for (; number < materials.size(); ++number)
     if (materials[number].index_name == name && same_tables(*films.specs[number], spec)) return number;
-  if (number == Coating::kMaxMaterials) {
-    context.diagnostics.error(
+  if (number == Coating::kMaxMaterials)
+    return context.refuse(
         spec.where, fmt::format("too many materials in a coating (allowed {})", Coating::kMaxMaterials));
-    return std::nullopt;
-  }
   materials.push_back({name, std::move(ior->index)});
   films.specs.push_back(&spec);
   return number;
@@ -230,11 +228,9 @@ std::optional<Ior> build(const spec::Ior& spec, LoadContext& context) {
 std::optional<Ior> build(const spec::TintedIor& spec, LoadContext& context) {
   auto ior = build(spec.ior, context);
   if (!ior || !spec.absorption_per_m) return ior;
-  if (ior->index.absorbing()) {
-    context.diagnostics.error(spec.absorption_per_m->where,
-                              "absorption_per_m requires an index without k; this index already has one");
-    return std::nullopt;
-  }
+  if (ior->index.absorbing())
+    return context.refuse(spec.absorption_per_m->where,
+                          "absorption_per_m requires an index without k; this index already has one");
   const auto alpha = build(*spec.absorption_per_m, {"filter", spec::kPower, CurveUnit::per_metre}, context);
   if (!alpha) return std::nullopt;
   ior->index = ior->index.with_k(extinction(*alpha));

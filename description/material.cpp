@@ -54,12 +54,10 @@ std::optional<DensityGrid> build_densities(const schema::Located<std::string>& s
   try {
     array = read_npy(*path, context.inputs);
   } catch (const Error& e) {
-    context.diagnostics.error(where, e.what(), e.code);
-    return std::nullopt;
+    return context.refuse(where, e.what(), e.code);
   }
   const auto fault = [&](std::string_view what) {
-    context.diagnostics.error(where, fmt::format("\"{}\" {}", spec.value, what), ErrorCode::input);
-    return std::nullopt;
+    return context.refuse(where, fmt::format("\"{}\" {}", spec.value, what), ErrorCode::input);
   };
   if (array.shape.size() != 3)
     return fault(fmt::format("has {} axes, allowed 3: z, y, x", array.shape.size()));
@@ -145,8 +143,7 @@ std::optional<std::uint32_t> find_material(const schema::Located<std::string>& n
     return found->second;
   std::vector<std::string> names;
   for (const Material& material : scene.materials) names.push_back(material.name);
-  context.diagnostics.error(name.where, unknown_name("material", name.value, names));
-  return std::nullopt;
+  return context.refuse(name.where, unknown_name("material", name.value, names));
 }
 
 std::uint32_t add_file_material(const FileMaterial& material, const std::string& file,
@@ -177,10 +174,8 @@ std::uint32_t black_material(LoadContext& context, Scene& scene) {
 std::optional<PlacedGrid> build(const spec::Grid& spec, LoadContext& context) {
   const Imath::V3d from = spec.from * context.unit_m;
   const Imath::V3d to = spec.to * context.unit_m;
-  if (!(to.x > from.x && to.y > from.y && to.z > from.z)) {
-    context.diagnostics.error(spec.where, "the grid's `to` must be greater than its `from` along x, y and z");
-    return std::nullopt;
-  }
+  if (!(to.x > from.x && to.y > from.y && to.z > from.z))
+    return context.refuse(spec.where, "the grid's `to` must be greater than its `from` along x, y and z");
   auto grid = build_densities(spec.densities, context);
   if (!grid) return std::nullopt;
   return PlacedGrid{std::make_shared<const DensityGrid>(std::move(*grid)), from, to};
@@ -207,9 +202,8 @@ std::optional<MixtureMaterial> build(const spec::Mixture& spec, LoadContext& con
     mixture.components.push_back({std::move(*weight), std::move(material)});
   }
   if (total.max() <= 1 + kSlack) return mixture;
-  context.diagnostics.error(
+  return context.refuse(
       spec.where, fmt::format("the weights of a mixture must add up to at most 1 (got {:g})", total.max()));
-  return std::nullopt;
 }
 
 std::shared_ptr<const Relief> build(const spec::NormalMap& spec, LoadContext& context) {

@@ -342,10 +342,7 @@ struct ModelBuilder {
     auto ior = build(spec.ior, context);
     auto reflectance = build(spec.reflectance, context);
     if (!ior || !reflectance) return std::nullopt;
-    if (const auto fault = coat_fault(ior->index)) {
-      context.diagnostics.error(spec.ior.where, *fault);
-      return std::nullopt;
-    }
+    if (const auto fault = coat_fault(ior->index)) return context.refuse(spec.ior.where, *fault);
     return CoatedDiffuseMaterial{std::move(*reflectance), std::move(ior->name), std::move(ior->index)};
   }
   Model operator()(const spec::ThinGlass& spec) const {

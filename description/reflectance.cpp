@@ -95,10 +95,8 @@ void warn_of_alpha(const TextureFile& file, LoadContext& context) {
 }
 
 std::optional<Weights> build(const spec::Rgb& spec, const TextureFile& file, LoadContext& context) {
-  if (!spec.value) {
-    context.diagnostics.error(spec.where, "an image that is not rgb needs weights (got false, allowed true)");
-    return std::nullopt;
-  }
+  if (!spec.value)
+    return context.refuse(spec.where, "an image that is not rgb needs weights (got false, allowed true)");
   if (const auto fault = rec709_fault(file.image)) {
     file.refuse(*fault, ErrorCode::input, context);
     return std::nullopt;
@@ -234,8 +232,7 @@ std::optional<TextureFile> build(const spec::TextureFile& spec, LoadContext& con
     const std::size_t bytes = image.memory_bytes();
     return TextureFile{name, where, std::move(image), spec.mapping, {context.inputs, bytes}};
   } catch (const Error& e) {
-    context.diagnostics.error(where, e.what(), e.code);
-    return std::nullopt;
+    return context.refuse(where, e.what(), e.code);
   }
 }
 

@@ -206,8 +206,7 @@ std::optional<int> find_mosaic_channel(const schema::Located<std::string>& name,
                                        const std::vector<std::string>& names, LoadContext& context) {
   const auto known = std::find(names.begin(), names.end(), name.value);
   if (known != names.end()) return static_cast<int>(known - names.begin());
-  context.diagnostics.error(name.where, unknown_name("channel", name.value, names));
-  return std::nullopt;
+  return context.refuse(name.where, unknown_name("channel", name.value, names));
 }
 
 std::optional<Mosaic> build_mosaic(const spec::Sensor& spec, const std::vector<Channel>& channels,
@@ -218,12 +217,10 @@ std::optional<Mosaic> build_mosaic(const spec::Sensor& spec, const std::vector<C
   const auto& rows = spec.mosaic->value;
   Mosaic mosaic{static_cast<int>(rows.front().value.size()), static_cast<int>(rows.size()), {}};
   for (const auto& row : rows) {
-    if (row.value.size() != static_cast<std::size_t>(mosaic.width)) {
-      context.diagnostics.error(row.where,
-                                fmt::format("rows of a mosaic must have the same length (got {}, allowed {})",
-                                            row.value.size(), mosaic.width));
-      return std::nullopt;
-    }
+    if (row.value.size() != static_cast<std::size_t>(mosaic.width))
+      return context.refuse(row.where,
+                            fmt::format("rows of a mosaic must have the same length (got {}, allowed {})",
+                                        row.value.size(), mosaic.width));
     for (const auto& cell : row.value)
       if (const auto channel = find_mosaic_channel(cell, names, context)) mosaic.channel.push_back(*channel);
   }
@@ -322,10 +319,8 @@ std::optional<fs::path> model_file(const std::string& name, const SourcePosition
                                    LoadContext& context) {
   if (name.ends_with(kExtension)) return context.file(name, where);
   const std::vector<std::string> names = shipped_models();
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    context.diagnostics.error(where, unknown_name("sensor", name, names));
-    return std::nullopt;
-  }
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    return context.refuse(where, unknown_name("sensor", name, names));
   context.remember(data_directory() / "sensor" / (name + std::string(kExtension)));
   return context.files.back();
 }

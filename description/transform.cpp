@@ -152,18 +152,15 @@ std::optional<Imath::M44d> build(const std::vector<spec::Affine>& steps, const S
                               {matrix[2][0], matrix[2][1], matrix[2][2]}};
   const double determinant = rows[0].dot(rows[1].cross(rows[2]));
   const double largest = rows[0].length() * rows[1].length() * rows[2].length();
-  if (!(std::abs(determinant) > kDeterminantRounding * largest) || !std::isfinite(determinant)) {
-    context.diagnostics.error(
+  if (!(std::abs(determinant) > kDeterminantRounding * largest) || !std::isfinite(determinant))
+    return context.refuse(
         where, fmt::format("transform is singular (determinant got {:g}, allowed not 0)", determinant));
-    return std::nullopt;
-  }
   // Embree inverts the matrix in float.
   const double shrinks = 1 / norm(matrix.inverse());
   if (norm(matrix) <= 2 * kMaxScale && shrinks >= 0.5 / kMaxScale) return matrix;
-  context.diagnostics.error(
+  return context.refuse(
       where, fmt::format("transform is out of range (got lengths times {:g} to {:g}, allowed [{:g}, {:g}])",
                          shrinks, norm(matrix), 1 / kMaxScale, kMaxScale));
-  return std::nullopt;
 }
 
 }  // namespace description
