@@ -13,25 +13,6 @@ namespace {
 
 constexpr char kBlack[] = "black (light)";
 
-// Builds a material. One with an error becomes black.
-Material build_material(const schema::Named<spec::Material>& spec, LoadContext& context) {
-  Material material{spec.name, DiffuseMaterial{Curve(0.0)}};
-  if (auto model = build_model(spec.value, context)) material.model = *std::move(model);
-  if (const auto& priority = spec.value.priority) {
-    if (!encloses_medium(material))
-      context.diagnostics.error(priority->where,
-                                "priority applies only to a medium inside a shape: a dielectric or a medium");
-    material.priority = priority->value;
-  }
-  if (const auto* normals = std::get_if<spec::NormalMap>(&spec.value.relief))
-    material.relief = build(*normals, context);
-  if (const auto* bumps = std::get_if<spec::BumpMap>(&spec.value.relief))
-    material.relief = build(*bumps, context);
-  if (material.relief && is_boundary(material))
-    context.diagnostics.error(spec.where, "a medium has no surface and cannot have a normal_map or bump_map");
-  return material;
-}
-
 PhaseFunction build_phase(const spec::Scattering& spec) {
   if (!spec.phase) return IsotropicPhase{};
   if (const auto* peak = std::get_if<spec::HenyeyGreenstein>(&spec.phase->value))
@@ -92,6 +73,21 @@ std::shared_ptr<const Material> mixable_material(const schema::Located<std::stri
   return nullptr;
 }
 
+std::optional<MixtureMaterial> build(const spec::Mixture& spec, LoadContext& context, const Scene& scene) {
+  MixtureMaterial mixture;
+  Curve total(0.0);
+  for (const spec::MixturePart& part : spec.value) {
+    auto weight = build(part.weight, kReflectanceUse, context);
+    auto material = mixable_material(part.material, context, scene);
+    if (!weight || !material) return std::nullopt;
+    total = sum(total, *weight);
+    mixture.components.push_back({std::move(*weight), std::move(material)});
+  }
+  if (total.max() <= 1 + kSlack) return mixture;
+  return context.refuse(
+      spec.where, fmt::format("the weights of a mixture must add up to at most 1 (got {:g})", total.max()));
+}
+
 // The image of a map. Reports an image with another number of channels than the map needs.
 std::optional<TextureImage> map_image(const TextureFile& file, std::span<const std::string> channels,
                                       const char* what, LoadContext& context) {
@@ -121,6 +117,52 @@ std::optional<std::string> normal_fault(const TextureFile& file, const std::vect
                      file.texel_name(i), outward);
 }
 
+std::shared_ptr<const Relief> build(std::monostate, LoadContext&) {
+  return nullptr;
+}
+
+std::shared_ptr<const Relief> build(const spec::NormalMap& spec, LoadContext& context) {
+  const auto file = build(spec.file, context);
+  if (!file) return nullptr;
+  const std::vector<std::string> channels{"R", "G", "B"};
+  auto image = map_image(*file, channels, "a normal map", context);
+  if (!image) return nullptr;
+  std::vector<const ImageChannel*> rgb;
+  for (const std::string& channel : channels) rgb.push_back(file->image.find(channel));
+  for (std::size_t i = 0; i < file->image.pixels(); ++i) {
+    const auto fault = normal_fault(*file, rgb, i);
+    if (!fault) continue;
+    file->refuse(*fault, ErrorCode::input, context);
+    return nullptr;
+  }
+  return std::make_shared<const Relief>(NormalMap{std::move(*image)});
+}
+
+std::shared_ptr<const Relief> build(const spec::BumpMap& spec, LoadContext& context) {
+  const auto file = build(spec.file, context);
+  if (!file) return nullptr;
+  const std::vector<std::string> only{file->image.channels.empty() ? "" : file->image.channels[0].name};
+  auto image = map_image(*file, only, "a bump map", context);
+  if (!image) return nullptr;
+  return std::make_shared<const Relief>(BumpMap{std::move(*image), spec.height * context.unit_m});
+}
+
+// Builds a material. One with an error becomes black.
+Material build_material(const schema::Named<spec::Material>& spec, LoadContext& context) {
+  Material material{spec.name, DiffuseMaterial{Curve(0.0)}};
+  if (auto model = build_model(spec.value, context)) material.model = *std::move(model);
+  if (const auto& priority = spec.value.priority) {
+    if (!encloses_medium(material))
+      context.diagnostics.error(priority->where,
+                                "priority applies only to a medium inside a shape: a dielectric or a medium");
+    material.priority = priority->value;
+  }
+  material.relief = std::visit([&](const auto& relief) { return build(relief, context); }, spec.value.relief);
+  if (material.relief && is_boundary(material))
+    context.diagnostics.error(spec.where, "a medium has no surface and cannot have a normal_map or bump_map");
+  return material;
+}
+
 }  // namespace
 
 void build_materials(const spec::Materials& materials, LoadContext& context, Scene& scene) {
@@ -128,8 +170,8 @@ void build_materials(const spec::Materials& materials, LoadContext& context, Sce
     context.materials.emplace(spec.name, static_cast<std::uint32_t>(scene.materials.size()));
     scene.materials.push_back(build_material(spec, context));
   }
-  for (const auto& [name, material, where] :
-       materials) {  // Mixtures refer to the other materials and are built after them.
+  // Mixtures refer to the other materials and are built after them.
+  for (const auto& [name, material, where] : materials) {
     const auto* mixture_spec = std::get_if<spec::Mixture>(&material.model);
     if (mixture_spec == nullptr) continue;
     if (auto mixture = build(*mixture_spec, context, scene))
@@ -189,47 +231,6 @@ std::optional<Medium> build(const spec::Scattering& spec, const std::optional<sp
     context.diagnostics.warning(spec.phase->where, "phase has no effect without scattering_per_m");
   if (!scatters || !absorbs) return std::nullopt;
   return Medium{std::move(*absorbs), std::move(*scatters), build_phase(spec)};
-}
-
-std::optional<MixtureMaterial> build(const spec::Mixture& spec, LoadContext& context, const Scene& scene) {
-  MixtureMaterial mixture;
-  Curve total(0.0);
-  for (const spec::MixturePart& part : spec.value) {
-    auto weight = build(part.weight, kReflectanceUse, context);
-    auto material = mixable_material(part.material, context, scene);
-    if (!weight || !material) return std::nullopt;
-    total = sum(total, *weight);
-    mixture.components.push_back({std::move(*weight), std::move(material)});
-  }
-  if (total.max() <= 1 + kSlack) return mixture;
-  return context.refuse(
-      spec.where, fmt::format("the weights of a mixture must add up to at most 1 (got {:g})", total.max()));
-}
-
-std::shared_ptr<const Relief> build(const spec::NormalMap& spec, LoadContext& context) {
-  const auto file = build(spec.file, context);
-  if (!file) return nullptr;
-  const std::vector<std::string> channels{"R", "G", "B"};
-  auto image = map_image(*file, channels, "a normal map", context);
-  if (!image) return nullptr;
-  std::vector<const ImageChannel*> rgb;
-  for (const std::string& channel : channels) rgb.push_back(file->image.find(channel));
-  for (std::size_t i = 0; i < file->image.pixels(); ++i) {
-    const auto fault = normal_fault(*file, rgb, i);
-    if (!fault) continue;
-    file->refuse(*fault, ErrorCode::input, context);
-    return nullptr;
-  }
-  return std::make_shared<const Relief>(NormalMap{std::move(*image)});
-}
-
-std::shared_ptr<const Relief> build(const spec::BumpMap& spec, LoadContext& context) {
-  const auto file = build(spec.file, context);
-  if (!file) return nullptr;
-  const std::vector<std::string> only{file->image.channels.empty() ? "" : file->image.channels[0].name};
-  auto image = map_image(*file, only, "a bump map", context);
-  if (!image) return nullptr;
-  return std::make_shared<const Relief>(BumpMap{std::move(*image), spec.height * context.unit_m});
 }
 
 }  // namespace abbe::description

@@ -21,10 +21,9 @@ enum class PhaseWord { isotropic, rayleigh };
 struct HenyeyGreenstein {
   double g = 0;  ///< Mean cosine of the scattering angle, in [-0.9999, 0.9999]; positive scatters forwards.
 };
-/// Scattering of a medium.
+/// Scattering of a medium: coefficient [1/m], 0 if absent, and phase function, isotropic if absent.
 struct Scattering {
-  std::optional<Curve> per_m;  ///< Scattering coefficient [1/m]; 0 if absent.
-  /// Phase function; isotropic if absent.
+  std::optional<Curve> per_m;
   std::optional<schema::Located<std::variant<PhaseWord, HenyeyGreenstein>>> phase;
 };
 /// A grid of densities at its nodes, which multiply absorption and scattering.
@@ -41,16 +40,16 @@ struct Diffuse {
 };
 /// An interface between the medium inside a closed shape and the medium around it.
 struct Dielectric {
-  TintedIor ior;                       ///< Index and absorption of the medium inside.
-  Scattering scattering;               ///< Scattering of the medium inside.
+  TintedIor ior;
+  Scattering scattering;
   std::vector<LayerEntry> coating;     ///< Thin films, from the outside inwards; none if empty.
   std::optional<Roughness> roughness;  ///< Smooth if absent; not allowed with a coating.
 };
 /// An opaque metal.
 struct Conductor {
   Ior ior;
-  std::vector<LayerEntry> coating;     ///< Thin films, from the outside inwards; none if empty.
-  std::optional<Roughness> roughness;  ///< Smooth if absent; not allowed with a coating.
+  std::vector<LayerEntry> coating;
+  std::optional<Roughness> roughness;
 };
 /// Thin films with the same medium on both sides, such as a soap bubble: a coating without a substrate.
 struct Film {
@@ -98,8 +97,8 @@ struct Principled {
 };
 /// Parameters of all models that are powers of a cosine.
 struct Power {
-  Reflectance reflectance;  ///< Reflectance of the lobe.
-  double exponent = 0;      ///< Power of the cosine, in [0, 1e4].
+  Reflectance reflectance;
+  double exponent = 0;  ///< Power of the cosine, in [0, 1e4].
 };
 /// A power of the cosine of the direction of light to the normal.
 struct CosinePower : Power {
@@ -132,10 +131,6 @@ struct WavePlate : ThinElement {
   double angle_deg = 0;  ///< Angle of the fast axis to u, counter-clockwise if viewed from outside.
 };
 struct Depolariser : ThinElement {};
-// Key tables and forms by which scene files are read, written and documented.
-[[nodiscard]] schema::Fields fields(schema::Tag<Polariser>);
-[[nodiscard]] schema::Fields fields(schema::Tag<WavePlate>);
-[[nodiscard]] schema::Fields fields(schema::Tag<Depolariser>);
 /// A component of a mixture.
 struct MixturePart {
   schema::Located<std::string> material;  ///< Name of a material that is no mixture and has no medium inside.
@@ -153,16 +148,13 @@ struct BumpMap {
   TextureFile file;
   double height = 0;  ///< Height for a value of 1.
 };
-/// A material of a scene file. `std::monostate` means that no model has been read, or that there is no
-/// relief.
+/// A material of a scene file. `std::monostate` means that no model was read, or that there is no relief.
 struct Material {
   std::variant<std::monostate, Mixture, Diffuse, Dielectric, Conductor, Film, Medium, CoatedDiffuse,
                ThinGlass, Mirror, Schlick, OrenNayar, Principled, CosinePower, Phong, Retroreflector,
                Polariser, WavePlate, Depolariser>
       model;
-  /// Priority of the medium inside a shape where shapes overlap, in [-1000, 1000]; the highest applies. 0 if
-  /// absent.
-  std::optional<schema::Located<int>> priority;
+  std::optional<schema::Located<int>> priority;  ///< In [-1000, 1000]; 0 if absent.
   std::variant<std::monostate, NormalMap, BumpMap> relief;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Material>);
@@ -183,7 +175,7 @@ namespace abbe::description {
 /// priority of a material without a medium inside, and a relief of a medium without a surface.
 void build_materials(const spec::Materials& materials, LoadContext& context, Scene& scene);
 /// Builds the model of a material; nothing after an error, and for std::monostate. A mixture is still without
-/// its components. Priority and relief are not built.
+/// its components. Priority and relief are not built. Angles are converted to radians, lengths to metres.
 [[nodiscard]] std::optional<MaterialModel> build_model(const spec::Material& material, LoadContext& context);
 /// Index in `scene.materials` of the material of that name. Reports an unknown name with the nearest known
 /// one, and returns nothing.
@@ -207,19 +199,5 @@ void build_materials(const spec::Materials& materials, LoadContext& context, Sce
 /// than 3, an axis of fewer than 2 nodes, a density outside [0, 1e9] and an empty box. Returns nothing after
 /// an error.
 [[nodiscard]] std::optional<PlacedGrid> build(const spec::Grid& grid, LoadContext& context);
-// The three thin elements, with angles in radians and lengths in metres. Each returns nothing after an error,
-// such as a curve outside its allowed range.
-[[nodiscard]] std::optional<MaterialModel> build(const spec::Polariser& polariser, LoadContext& context);
-[[nodiscard]] std::optional<MaterialModel> build(const spec::WavePlate& plate, LoadContext& context);
-[[nodiscard]] std::optional<MaterialModel> build(const spec::Depolariser& sheet, LoadContext& context);
-/// Builds a mixture of materials of `scene`. Reports components that are mixtures, have a medium inside, an
-/// axis or a relief, and weights whose sum exceeds 1 at a wavelength. Returns nothing after an error.
-[[nodiscard]] std::optional<MixtureMaterial> build(const spec::Mixture& mixture, LoadContext& context,
-                                                   const Scene& scene);
-// Reads a normal map or a bump map, with heights in metres. Reports an image that cannot be read or has other
-// channels, a value that is not finite, and a normal that does not point outward. Returns nullptr after an
-// error.
-[[nodiscard]] std::shared_ptr<const Relief> build(const spec::NormalMap& map, LoadContext& context);
-[[nodiscard]] std::shared_ptr<const Relief> build(const spec::BumpMap& map, LoadContext& context);
 
 }  // namespace abbe::description

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <concepts>
 #include <utility>
 #include <vector>
 
@@ -190,6 +189,41 @@ static Fields fields(Tag<BumpMap>) {
       {field("height", &BumpMap::height, kCoordinate, "Height for a value of 1."), inlined(&BumpMap::file)});
 }
 
+static Fields fields(Tag<Polariser>) {
+  return describe(
+      "polariser", "A linear polariser modelled as one surface, which light crosses without deflection.",
+      {transmittance<Polariser>("Transmittance of light polarised along the axis, in [0, 1]; 1 if absent."),
+       field("extinction_ratio", &Polariser::extinction_ratio,
+             "Transmittance along the axis over that across it, 1 or more; infinite if absent."),
+       defaulted("angle_deg", &Polariser::angle_deg, kAngle,
+                 "Angle of its axis to u, counter-clockwise as seen from outside.")});
+}
+static Fields fields(Tag<Retardance>) {
+  return describe("retardance", "The same retardance at all wavelengths.",
+                  {field("retardance_deg", &Retardance::retardance_deg, kAngle,
+                         "Phase lag of the field across the fast axis, at all wavelengths.")});
+}
+static Fields fields(Tag<Crystal>) {
+  return describe("crystal", "A plate of a birefringent crystal.",
+                  {field("birefringence", &Crystal::birefringence,
+                         "Refractive index along the slow axis minus that along the fast axis, relative to "
+                         "air, in [0, 10]."),
+                   field("thickness", &Crystal::thickness, kLength, "Thickness of the plate.")});
+}
+static Fields fields(Tag<WavePlate>) {
+  return describe("wave_plate",
+                  "A wave plate modelled as one surface, which light crosses without deflection.",
+                  {transmittance<WavePlate>("Transmittance, in [0, 1]; 1 if absent."),
+                   one_of(&WavePlate::kind, inlined_by<Retardance>("retardance_deg"),
+                          inlined_by<Crystal>("birefringence")),
+                   defaulted("angle_deg", &WavePlate::angle_deg, kAngle,
+                             "Angle of its fast axis to u, counter-clockwise as seen from outside.")});
+}
+static Fields fields(Tag<Depolariser>) {
+  return describe("depolariser", "A surface that transmits light without deflection and depolarises it.",
+                  {transmittance<Depolariser>("Transmittance, in [0, 1]; 1 if absent.")});
+}
+
 Fields fields(Tag<Material>) {
   return describe(
       "material", "Optical properties of a surface or of the medium inside.",
@@ -212,41 +246,6 @@ Fields fields(Tag<Material>) {
 
 ValueType materials() {
   return by_name<Material>("an object of materials by name", 0);
-}
-
-Fields fields(Tag<Polariser>) {
-  return describe(
-      "polariser", "A linear polariser modelled as one surface, which light crosses without deflection.",
-      {transmittance<Polariser>("Transmittance of light polarised along the axis, in [0, 1]; 1 if absent."),
-       field("extinction_ratio", &Polariser::extinction_ratio,
-             "Transmittance along the axis over that across it, 1 or more; infinite if absent."),
-       defaulted("angle_deg", &Polariser::angle_deg, kAngle,
-                 "Angle of its axis to u, counter-clockwise as seen from outside.")});
-}
-static Fields fields(Tag<Retardance>) {
-  return describe("retardance", "The same retardance at all wavelengths.",
-                  {field("retardance_deg", &Retardance::retardance_deg, kAngle,
-                         "Phase lag of the field across the fast axis, at all wavelengths.")});
-}
-static Fields fields(Tag<Crystal>) {
-  return describe("crystal", "A plate of a birefringent crystal.",
-                  {field("birefringence", &Crystal::birefringence,
-                         "Refractive index along the slow axis minus that along the fast axis, relative to "
-                         "air, in [0, 10]."),
-                   field("thickness", &Crystal::thickness, kLength, "Thickness of the plate.")});
-}
-Fields fields(Tag<WavePlate>) {
-  return describe("wave_plate",
-                  "A wave plate modelled as one surface, which light crosses without deflection.",
-                  {transmittance<WavePlate>("Transmittance, in [0, 1]; 1 if absent."),
-                   one_of(&WavePlate::kind, inlined_by<Retardance>("retardance_deg"),
-                          inlined_by<Crystal>("birefringence")),
-                   defaulted("angle_deg", &WavePlate::angle_deg, kAngle,
-                             "Angle of its fast axis to u, counter-clockwise as seen from outside.")});
-}
-Fields fields(Tag<Depolariser>) {
-  return describe("depolariser", "A surface that transmits light without deflection and depolarises it.",
-                  {transmittance<Depolariser>("Transmittance, in [0, 1]; 1 if absent.")});
 }
 
 }  // namespace abbe::spec
@@ -293,6 +292,20 @@ template <typename M, typename Part, typename... More>
 std::optional<MaterialModel> make_model(std::optional<Part> part, More... more) {
   if (!part) return std::nullopt;
   return M{*std::move(part), more...};
+}
+
+// Reciprocal of a curve, sampled every nanometre.
+Curve reciprocal(const Curve& curve) {
+  if (curve.is_constant()) return Curve(1 / curve.max());
+  std::vector<Knot> knots;
+  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm)
+    knots.push_back({static_cast<double>(nm), 1 / curve(nm)});
+  return Curve(std::move(knots));
+}
+
+std::optional<Curve> transmittance(const spec::ThinElement& spec, LoadContext& context) {
+  if (!spec.transmittance) return Curve(1.0);
+  return build(*spec.transmittance, {"filter", Range::unit(), CurveUnit::fraction}, context);
 }
 
 /// Builds each kind of material; nothing after an error.
@@ -383,42 +396,34 @@ struct ModelBuilder {
   Model operator()(const spec::Retroreflector& spec) const {
     return make_model<RetroreflectorMaterial>(build(spec.reflectance, context), spec.exponent);
   }
-  template <std::derived_from<spec::ThinElement> Element>
-  Model operator()(const Element& spec) const {
-    return build(spec, context);
+  Model operator()(const spec::Polariser& spec) const {
+    auto passed = transmittance(spec, context);
+    std::optional<Curve> blocked(0.0);
+    if (spec.extinction_ratio) {
+      blocked = build(*spec.extinction_ratio, {"filter", {1, 1e30}}, context);
+      if (blocked) blocked = reciprocal(*blocked);
+    }
+    if (!passed || !blocked) return std::nullopt;
+    return PolariserMaterial{{std::move(*passed)}, std::move(*blocked), spec.angle_deg * kDegree};
   }
-};
-
-constexpr Range kRatio{1, 1e30};
-constexpr Range kBirefringence{0, 10};
-
-// Reciprocal of a curve, sampled every nanometre.
-Curve reciprocal(const Curve& curve) {
-  if (curve.is_constant()) return Curve(1 / curve.max());
-  std::vector<Knot> knots;
-  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm)
-    knots.push_back({static_cast<double>(nm), 1 / curve(nm)});
-  return Curve(std::move(knots));
-}
-
-std::optional<Curve> transmittance(const spec::ThinElement& spec, LoadContext& context) {
-  if (!spec.transmittance) return Curve(1.0);
-  return build(*spec.transmittance, {"filter", Range::unit(), CurveUnit::fraction}, context);
-}
-
-// Builds the retardance of a wave plate.
-struct WavePlateKindBuilder {
-  using Kind = decltype(WavePlateMaterial::kind);
-  LoadContext& context;
-
-  std::optional<Kind> operator()(std::monostate) const { return std::nullopt; }
-  std::optional<Kind> operator()(const spec::Retardance& spec) const {
-    return WavePlateMaterial::Ideal{spec.retardance_deg * kDegree};
+  Model operator()(const spec::WavePlate& spec) const {
+    auto passed = transmittance(spec, context);
+    WavePlateMaterial plate{{}, {}, spec.angle_deg * kDegree};
+    if (const auto* crystal = std::get_if<spec::Crystal>(&spec.kind)) {
+      auto birefringence = build(crystal->birefringence, {"filter", {0, 10}}, context);
+      if (!birefringence) return std::nullopt;
+      plate.kind = WavePlateMaterial::Crystal{crystal->thickness * context.unit_m, std::move(*birefringence)};
+    } else if (const auto* ideal = std::get_if<spec::Retardance>(&spec.kind)) {
+      plate.kind = WavePlateMaterial::Ideal{ideal->retardance_deg * kDegree};
+    }
+    if (!passed) return std::nullopt;
+    plate.transmittance = std::move(*passed);
+    return plate;
   }
-  std::optional<Kind> operator()(const spec::Crystal& spec) const {
-    auto birefringence = build(spec.birefringence, {"filter", kBirefringence}, context);
-    if (!birefringence) return std::nullopt;
-    return WavePlateMaterial::Crystal{spec.thickness * context.unit_m, std::move(*birefringence)};
+  Model operator()(const spec::Depolariser& spec) const {
+    auto passed = transmittance(spec, context);
+    if (!passed) return std::nullopt;
+    return DepolariserMaterial{{std::move(*passed)}};
   }
 };
 
@@ -426,30 +431,6 @@ struct WavePlateKindBuilder {
 
 std::optional<MaterialModel> build_model(const spec::Material& material, LoadContext& context) {
   return std::visit(ModelBuilder{context}, material.model);
-}
-
-std::optional<MaterialModel> build(const spec::Polariser& spec, LoadContext& context) {
-  auto passed = transmittance(spec, context);
-  std::optional<Curve> blocked(0.0);
-  if (spec.extinction_ratio) {
-    blocked = build(*spec.extinction_ratio, {"filter", kRatio}, context);
-    if (blocked) blocked = reciprocal(*blocked);
-  }
-  if (!passed || !blocked) return std::nullopt;
-  return PolariserMaterial{{std::move(*passed)}, std::move(*blocked), spec.angle_deg * kDegree};
-}
-
-std::optional<MaterialModel> build(const spec::WavePlate& spec, LoadContext& context) {
-  auto passed = transmittance(spec, context);
-  auto kind = std::visit(WavePlateKindBuilder{context}, spec.kind);
-  if (!passed || !kind) return std::nullopt;
-  return WavePlateMaterial{{std::move(*passed)}, std::move(*kind), spec.angle_deg * kDegree};
-}
-
-std::optional<MaterialModel> build(const spec::Depolariser& spec, LoadContext& context) {
-  auto passed = transmittance(spec, context);
-  if (!passed) return std::nullopt;
-  return DepolariserMaterial{{std::move(*passed)}};
 }
 
 }  // namespace abbe::description
