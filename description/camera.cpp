@@ -23,13 +23,9 @@ namespace abbe::spec {
 
 using namespace schema;
 
-namespace {
+static constexpr Range kFNumber{description::kFastestFNumber, 1e6};
 
-constexpr Range kFNumber{description::kFastestFNumber, 1e6};
-
-}  // namespace
-
-Fields fields(Tag<Iris>) {
+static Fields fields(Tag<Iris>) {
   return describe(
       "iris", "The blades of a stop.",
       {field("blades", &Iris::blades, {lens::kMinBlades, lens::kMaxBlades},
@@ -39,19 +35,19 @@ Fields fields(Tag<Iris>) {
              "Rotation of the blades, clockwise as seen by the camera; if absent, a corner points up.")});
 }
 
-ValueType value_type(Tag<FocusDistance>) {
+static ValueType value_type(Tag<FocusDistance>) {
   return forms<FocusDistance>(
       "", "a distance, or \"infinity\"",
       form<InfinityKeyword>(Json::text, enumeration<InfinityKeyword>("distance", {"infinity"})),
       form<double>(Json::number, kLength));
 }
 
-ValueType value_type(Tag<Prescription>) {
+static ValueType value_type(Tag<Prescription>) {
   return forms<Prescription>("", "a lens: its name, a file, or an object with its surfaces",
                              form<std::string>(Json::text), form<Lens>(Json::object));
 }
 
-Fields fields(Tag<LensSystem>) {
+static Fields fields(Tag<LensSystem>) {
   return describe("lens_system",
                   "A camera with a real lens, traced surface by surface, with the film at its image.",
                   {field("prescription", &LensSystem::prescription,
@@ -220,6 +216,15 @@ void check_indices(const spec::LensSystem& spec, const lens::System& lens, const
   }
 }
 
+std::optional<lens::Iris> build(const spec::Iris& iris, const LoadContext& context) {
+  const auto& rotation = iris.blade_rotation_deg;
+  if (iris.blades) return lens::Iris(*iris.blades, rotation ? rotation->value : 0);
+  if (rotation)
+    context.diagnostics.warning(rotation->where,
+                                "blade_rotation_deg has no effect: the stop has no blades and is round");
+  return std::nullopt;
+}
+
 /// The f-number of a lens and its transmittance.
 struct Aperture {
   double f_number;
@@ -312,23 +317,9 @@ std::optional<ThinLens> build(const spec::ThinLensCamera& camera, const SourcePo
 
 std::optional<LensSystem> build(const spec::LensSystemCamera& camera, const SourcePosition& where,
                                 const Sensor& sensor, LoadContext& context) {
+  const spec::LensSystem& spec = camera.lens;
   const auto view = build(camera.view, where, context);
-  return view ? build(camera.lens, view->frame, sensor, context) : std::nullopt;
-}
-
-}  // namespace
-
-std::optional<lens::Iris> build(const spec::Iris& iris, const LoadContext& context) {
-  const auto& rotation = iris.blade_rotation_deg;
-  if (iris.blades) return lens::Iris(*iris.blades, rotation ? rotation->value : 0);
-  if (rotation)
-    context.diagnostics.warning(rotation->where,
-                                "blade_rotation_deg has no effect: the stop has no blades and is round");
-  return std::nullopt;
-}
-
-std::optional<LensSystem> build(const spec::LensSystem& spec, const CameraFrame& frame, const Sensor& sensor,
-                                LoadContext& context) {
+  if (!view) return std::nullopt;
   auto lens = load_prescription(spec, context);
   if (!lens) return std::nullopt;
   if (sensor.spectral)
@@ -349,11 +340,13 @@ std::optional<LensSystem> build(const spec::LensSystem& spec, const CameraFrame&
     using Ghosts = LensOptics::Ghosts;
     const auto optics = std::make_shared<LensOptics>(*std::move(lens), *stop, grid, counted.low, counted.high,
                                                      spec.ghosts ? Ghosts::enumerated : Ghosts::left_out);
-    return LensSystem{frame, optics, optics->has_ghosts()};
+    return LensSystem{view->frame, optics, optics->has_ghosts()};
   } catch (const Error& error) {
     return context.refuse(spec.where, error.what());
   }
 }
+
+}  // namespace
 
 std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor, LoadContext& context) {
   std::optional<decltype(Camera::kind)> kind;

@@ -20,25 +20,18 @@ namespace abbe::spec {
 
 /// The blades of an aperture stop; without them the stop is round.
 struct Iris {
-  /// Number of straight blades, from 3 to 32. The opening is the regular polygon inscribed in the circle of
-  /// the stop.
-  std::optional<int> blades;
+  std::optional<int> blades;  ///< 3 to 32; the opening is the polygon inscribed in the circle of the stop.
   /// Clockwise rotation of the blades as the camera looks; 0, with a corner up, if absent.
   std::optional<schema::Located<double>> blade_rotation_deg;
 };
-/// Key table by which scene files are read, written and documented.
-[[nodiscard]] schema::Fields fields(schema::Tag<Iris>);
 
 enum class InfinityKeyword { infinity };
 /// Distance from the lens to the plane in focus, in scene units and above 0; or infinity. That of a
 /// lens system is measured from its first surface.
 using FocusDistance = std::variant<double, InfinityKeyword>;
-// Key tables and forms by which scene files are read, written and documented.
-[[nodiscard]] schema::ValueType value_type(schema::Tag<FocusDistance>);
 
 /// A lens: its name in `data/lens`, the name of a .json, .zmx or .dat file, or the contents of such a .json.
 using Prescription = std::variant<std::string, Lens>;
-[[nodiscard]] schema::ValueType value_type(schema::Tag<Prescription>);
 
 /// Film position for a focus distance: the paraxial focus, or the smallest axial spot over all wavelengths of
 /// the prescription.
@@ -46,24 +39,18 @@ enum class FilmPlane { paraxial, best };
 /// A real lens in a scene, given by its prescription.
 struct LensSystem {
   schema::Located<Prescription> prescription;
-  /// If absent, the film stays at the image plane that the prescription gives.
-  std::optional<FocusDistance> focus_distance;
-  /// Film position for `focus_distance`, without which it has no effect; `best` if absent.
-  std::optional<schema::Located<FilmPlane>> focus;
-  /// Focal length over the diameter of the axial beam, to which the stop is closed. If absent, the stop is
-  /// that of the prescription.
-  std::optional<schema::Located<double>> f_number;
+  std::optional<FocusDistance> focus_distance;      ///< If absent, the film stays at the prescribed image.
+  std::optional<schema::Located<FilmPlane>> focus;  ///< Only with `focus_distance`; `best` if absent.
+  std::optional<schema::Located<double>> f_number;  ///< If absent, the stop is that of the prescription.
   Iris iris;
   bool ghosts = false;  ///< True to render ghosts: light that two surfaces of the lens reflect.
   SourcePosition where;
 };
-[[nodiscard]] schema::Fields fields(schema::Tag<LensSystem>);
 
 /// The f-number or T-stop of a lens.
 struct Aperture {
-  std::optional<double> f_number;  ///< Focal length over the diameter of the aperture.
-  /// f-number divided by the square root of the transmittance of the lens. A lens with a T-stop alone is
-  /// lossless. If both are absent, the f-number is `kDefaultFNumber`.
+  std::optional<double> f_number;  ///< `kDefaultFNumber` if both are absent.
+  /// f-number over the square root of the transmittance. A lens with a T-stop alone is lossless.
   std::optional<schema::Located<double>> t_stop;
 };
 struct FocalLength : schema::Value<double> {};  ///< Distance from the pinhole to the film [scene units].
@@ -78,9 +65,7 @@ struct ThinLens {
   double focal_length = 0;  ///< [scene units]
   Aperture aperture;
   Iris iris;
-  /// Distance from the lens to the plane in focus, or infinity. If absent, the distance from `View::from` to
-  /// `View::to`.
-  std::optional<FocusDistance> focus_distance;
+  std::optional<FocusDistance> focus_distance;  ///< If absent, the distance from `View::from` to `View::to`.
   SourcePosition where;
 };
 /// Position and orientation of a camera, in scene units.
@@ -113,34 +98,23 @@ struct Camera {
 
 namespace abbe::description {
 
-/// Builds the polygonal opening of the blades; nothing if the stop is round. Warns of a rotation without
-/// blades. Reports no errors.
-[[nodiscard]] std::optional<lens::Iris> build(const spec::Iris& iris, const LoadContext& context);
-
-/// Builds the lens with the pose `frame` in front of the film of `sensor`. The channels of `sensor` must have
-/// been built. Reports errors to `context.diagnostics` and returns nothing after one:
-/// - an error of the prescription, reported at its position in the prescription;
-/// - a lens that cannot focus at the requested distance or open to the requested f-number;
-/// - a spectral sensor: a real lens images different wavelengths to different pixels;
-/// - a film that the lens does not illuminate.
-/// Warns of settings without effect and of indices without data where the sensor responds. Throws
-/// Error{resource} if the memory limit is exceeded while a file is read.
-[[nodiscard]] std::optional<LensSystem> build(const spec::LensSystem& lens, const CameraFrame& frame,
-                                              const Sensor& sensor, LoadContext& context);
-
 /// f-number of the fastest lens in air: N = 1/(2 sin U') for U' = 90 degrees, the half-angle of the cone of
 /// light on the film.
 inline constexpr double kFastestFNumber = 0.5;
 /// f-number that sets the exposure of a pinhole with neither f-number nor T-stop.
 inline constexpr double kDefaultFNumber = 4;
 
-/// Builds the camera, in metres, in front of the film of `sensor`. `camera.kind` must not be std::monostate.
-/// Returns nothing after an error. Errors in addition to those of the key table:
+/// Builds the camera, in metres, in front of the film of `sensor`, whose channels must have been built.
+/// `camera.kind` must not be std::monostate. Returns nothing after an error. Errors in addition to those of
+/// the key table:
 /// - a T-stop faster than the f-number, or than the blades allow a lens in air;
 /// - a view without a direction, or with `up` along it;
-/// - a thin lens with a focus distance within its focal length;
-/// - the errors of a lens system and of a probe.
-/// The motion is not built; see `set_moving`. Throws Error{resource} if the memory limit is exceeded.
+/// - a lens that cannot focus at the requested distance or open to the requested f-number;
+/// - a prescription with errors, at their positions in it;
+/// - a lens system that does not illuminate the film, or that has a spectral sensor;
+/// - the errors of a probe.
+/// Warns of settings without effect and of indices without data where the sensor responds. The motion is not
+/// built; see `set_moving`. Throws Error{resource} if the memory limit is exceeded.
 [[nodiscard]] std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor,
                                           LoadContext& context);
 /// Moves `camera` from its described pose to that at which the shutter opens, and sets its motion from then

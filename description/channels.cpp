@@ -161,14 +161,14 @@ std::optional<Channel> build_channel(const schema::Named<spec::ChannelResponse>&
   return channel;
 }
 
-// Reports a key that applies to `channels` only, and not to the given alternative.
-void refuse(const SourcePosition* at, const char* key, const char* instead, LoadContext& context) {
-  if (at != nullptr)
-    context.diagnostics.error(*at, fmt::format("{} is used with channels only (got {})", key, instead));
-}
-template <typename T>
-const SourcePosition* position_if_set(const std::optional<T>& spec) {
-  return spec ? &spec->where : nullptr;
+std::optional<SpectralBins> build_bins(const spec::Bins& spec, LoadContext& context) {
+  const double bins = (spec.to_nm - spec.from_nm) / spec.step_nm;
+  if (bins > kMinBins - 0.5 && bins < kMaxBins + 0.5 && std::abs(bins - std::round(bins)) < 1e-6)
+    return SpectralBins{spec.from_nm, spec.step_nm, static_cast<int>(std::round(bins))};
+  return context.refuse(
+      spec.where,
+      fmt::format("the bins do not fill the range (got {} of {} nm in [{}, {}] nm, allowed {} to {})", bins,
+                  spec.step_nm, spec.from_nm, spec.to_nm, kMinBins, kMaxBins));
 }
 
 /// Builds the channels for each alternative of `spec::Sensor::counts`. A faulty detector has no channels.
@@ -177,6 +177,19 @@ struct ChannelBuilder {
   const std::optional<Detector>& detector;
   Sensor& sensor;
   LoadContext& context;
+
+  // Reports a key that applies to `channels` only, if it is set, and not to the alternative `instead`.
+  void refuse(const auto& value, const char* key, const char* instead) const {
+    if (value)
+      context.diagnostics.error(value->where,
+                                fmt::format("{} is used with channels only (got {})", key, instead));
+  }
+  void refuse_responses(const char* instead) const {
+    refuse(sensor_spec.response, "response", instead);
+    refuse(sensor_spec.quantum_efficiency, "quantum_efficiency", instead);
+    refuse(sensor_spec.peak_quantum_efficiency, "peak_quantum_efficiency", instead);
+    refuse(sensor_spec.electrons_per_lx_s, "electrons_per_lx_s", instead);
+  }
 
   void operator()(std::monostate) const {}
   void operator()(const spec::Channels& channels) const {
@@ -189,7 +202,7 @@ struct ChannelBuilder {
     context.coverage.channel.clear();
   }
   void operator()(const spec::MeasuredCamera& camera) const {
-    refuse(position_if_set(sensor_spec.quantum_efficiency), "quantum_efficiency", "camera", context);
+    refuse(sensor_spec.quantum_efficiency, "quantum_efficiency", "camera");
     const auto name = context.table(camera.value, camera.where);
     if (name && detector)
       sensor.channels =
@@ -197,23 +210,15 @@ struct ChannelBuilder {
               .value_or(std::vector<Channel>{});
   }
   void operator()(const spec::StandardObserver& observer) const {
-    refuse(position_if_set(sensor_spec.response), "response", "observer", context);
-    refuse(position_if_set(sensor_spec.quantum_efficiency), "quantum_efficiency", "observer", context);
-    refuse(position_if_set(sensor_spec.peak_quantum_efficiency), "peak_quantum_efficiency", "observer",
-           context);
-    refuse(position_if_set(sensor_spec.electrons_per_lx_s), "electrons_per_lx_s", "observer", context);
+    refuse_responses("observer");
     sensor.channels = observer_channels(observer.value);
   }
   void operator()(const spec::Bins& bins) const {
-    refuse(position_if_set(sensor_spec.response), "response", "spectral", context);
-    refuse(position_if_set(sensor_spec.quantum_efficiency), "quantum_efficiency", "spectral", context);
-    refuse(position_if_set(sensor_spec.peak_quantum_efficiency), "peak_quantum_efficiency", "spectral",
-           context);
-    refuse(position_if_set(sensor_spec.electrons_per_lx_s), "electrons_per_lx_s", "spectral", context);
-    refuse(position_if_set(sensor_spec.filters), "filters", "spectral", context);
-    refuse(position_if_set(sensor_spec.lens_transmission), "lens_transmission", "spectral", context);
-    refuse(position_if_set(sensor_spec.polariser), "polariser", "spectral", context);
-    refuse(position_if_set(sensor_spec.mosaic), "mosaic", "spectral", context);
+    refuse_responses("spectral");
+    refuse(sensor_spec.filters, "filters", "spectral");
+    refuse(sensor_spec.lens_transmission, "lens_transmission", "spectral");
+    refuse(sensor_spec.polariser, "polariser", "spectral");
+    refuse(sensor_spec.mosaic, "mosaic", "spectral");
     sensor.spectral = build_bins(bins, context);
     if (sensor.spectral) sensor.channels = spectral_channels(*sensor.spectral);
   }
@@ -296,16 +301,6 @@ void check_stokes(const spec::Sensor& spec, const Sensor& sensor, LoadContext& c
 }
 
 }  // namespace
-
-std::optional<SpectralBins> build_bins(const spec::Bins& spec, LoadContext& context) {
-  const double bins = (spec.to_nm - spec.from_nm) / spec.step_nm;
-  if (bins > kMinBins - 0.5 && bins < kMaxBins + 0.5 && std::abs(bins - std::round(bins)) < 1e-6)
-    return SpectralBins{spec.from_nm, spec.step_nm, static_cast<int>(std::round(bins))};
-  return context.refuse(
-      spec.where,
-      fmt::format("the bins do not fill the range (got {} of {} nm in [{}, {}] nm, allowed {} to {})", bins,
-                  spec.step_nm, spec.from_nm, spec.to_nm, kMinBins, kMaxBins));
-}
 
 void build_channels(const spec::Sensor& spec, Sensor& sensor, LoadContext& context) {
   build_checked(spec, sensor, context);

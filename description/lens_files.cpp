@@ -1,7 +1,6 @@
 #include "description/lens_files.h"
 
 #include <algorithm>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -158,22 +157,13 @@ Reader reader_of(const fs::path& file) {
 
 }  // namespace
 
-std::vector<std::string> lens_names() {
-  std::vector<std::string> names;
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(data_directory() / "lens", missing))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 std::optional<lens::System> load_lens(const std::string& name, Diagnostics& diagnostics, Inputs* inputs,
                                       const SourcePosition& where,
                                       const std::vector<double>& wavelengths_nm) {
   fs::path file = name;
   if (reader_of(file) == nullptr) {
-    const std::vector<std::string> names = lens_names();
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
+    const std::vector<std::string> names = description::shipped_names("lens");
+    if (std::ranges::find(names, name) == names.end()) {
       diagnostics.error(where, unknown_name("lens", name, names) + "; files end in .json, .zmx or .dat",
                         ErrorCode::input);
       return std::nullopt;

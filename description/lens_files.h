@@ -31,10 +31,6 @@ namespace abbe {
                                                     const SourcePosition& where = {},
                                                     const std::vector<double>& wavelengths_nm = {});
 
-/// The names of the prescriptions (`.json`) of `data/lens`, without extension and sorted; empty if there is
-/// no such folder. Throws Error{input} if the folder of the shipped tables does not exist.
-[[nodiscard]] std::vector<std::string> lens_names();
-
 }  // namespace abbe
 
 namespace abbe::description::lenses {

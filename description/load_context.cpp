@@ -1,9 +1,11 @@
 #include "description/load_context.h"
 
 #include <algorithm>
+#include <system_error>
 
 #include <fmt/format.h>
 
+#include "io/data_directory.h"
 #include "io/table.h"
 #include "materials/index/library.h"
 #include "sensor/response/table_range.h"
@@ -46,6 +48,15 @@ std::optional<std::string> LoadContext::table(const std::string& name, const Sou
   const auto path = file(name.substr(0, end), where);
   if (!path) return std::nullopt;
   return path->string() + name.substr(std::min(end, name.size()));
+}
+
+std::vector<std::string> shipped_names(const char* folder) {
+  std::vector<std::string> names;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(data_directory() / folder, missing))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
 }
 
 NamedCurve with_extrapolation(NamedCurve table, const CurveUse& use, const SourcePosition& where,

@@ -108,6 +108,10 @@ struct LoadContext {
   [[nodiscard]] std::optional<std::string> table(const std::string& name, const SourcePosition& where);
 };
 
+/// Names of the `.json` files of a folder of `data/`, without extension and sorted; empty if there is no such
+/// folder. Throws Error{input} if the folder of the shipped tables does not exist.
+[[nodiscard]] std::vector<std::string> shipped_names(const char* folder);
+
 /// Returns the table for the use `use`, with these effects on a partial table. A table is partial if it ends
 /// within the rendered wavelengths, 300 to 1100 nm, and does not declare `clamp`. A table that declares 0 is
 /// partial only if `use.extrapolates_constant`.

@@ -55,7 +55,7 @@ ValueType mosaic() {
 
 }  // namespace
 
-Fields fields(Tag<Shutter>) {
+static Fields fields(Tag<Shutter>) {
   constexpr Range kSeconds = Range{0, 1e9}.in("s");
   constexpr Range kFraction{0, 1};
   using Knot = std::array<double, 2>;
@@ -103,7 +103,7 @@ static Fields fields(Tag<FilteredChannel>) {
       {"filters", "polariser"});
 }
 
-Fields fields(Tag<Bins>) {
+static Fields fields(Tag<Bins>) {
   return describe("spectral",
                   "Wavelength bins that fill a range, 2 to 1000 of them. The film then records radiances.",
                   {field("from_nm", &Bins::from_nm, kWavelength, "Lower end of the first bin."),
@@ -181,6 +181,29 @@ std::vector<Shutter::Knot> knots_of(const schema::Located<std::vector<std::array
           "a transmission must run from 0 to 1 and pass some light (got one from {} to {} with mean {:g})",
           knots.front().time, knots.back().time, transmitted / 2));
   return {};
+}
+
+// Times of the result are fractions of the exposure time. After an error the shutter is open throughout.
+Shutter build(const spec::Shutter& spec, double exposure_s, int rows, const LoadContext& context) {
+  std::vector<Shutter::Knot> knots;
+  const double moving_s = spec.rise_s + spec.fall_s;
+  if (spec.transmission && moving_s > 0)
+    context.diagnostics.error(spec.transmission->where,
+                              "a shutter has either rise_s and fall_s, or transmission");
+  else if (spec.transmission)
+    knots = knots_of(*spec.transmission, context);
+  else if (moving_s > exposure_s)
+    context.diagnostics.error(
+        spec.where,
+        fmt::format("a shutter must open and close within the exposure time (got {} s, allowed up to {} s)",
+                    moving_s, exposure_s));
+  else
+    knots = {{0, spec.rise_s > 0 ? 0.0 : 1.0},
+             {spec.rise_s / exposure_s, 1},
+             {1 - spec.fall_s / exposure_s, 1},
+             {1, spec.fall_s > 0 ? 0.0 : 1.0}};
+  if (knots.empty()) return {};
+  return Shutter(std::move(knots), spec.row_delay_s / exposure_s, rows);
 }
 
 void build_resolution(const spec::Sensor& spec, bool probe, Sensor& sensor, LoadContext& context) {
@@ -289,10 +312,8 @@ void check_polarisation(const spec::Sensor& spec, const Sensor& sensor, LoadCont
 
 namespace fs = std::filesystem;
 
-constexpr const char* kKey = "model";
-constexpr std::string_view kExtension = ".json";
-
 // Keys that set the same property: one of them in a scene replaces all of them in a file.
+using Keys = std::span<const std::string_view>;
 constexpr std::array<std::string_view, 9> kCounts{"channels",
                                                   "camera",
                                                   "observer",
@@ -302,26 +323,17 @@ constexpr std::array<std::string_view, 9> kCounts{"channels",
                                                   "quantum_efficiency",
                                                   "peak_quantum_efficiency",
                                                   "electrons_per_lx_s"};
-constexpr std::array<std::string_view, 4> kWhatCounts{"channels", "camera", "observer", "spectral"};
-constexpr std::array<std::string_view, 2> kScale{"peak_quantum_efficiency", "electrons_per_lx_s"};
+constexpr Keys kWhatCounts = Keys(kCounts).first(4);
+constexpr Keys kScale = Keys(kCounts).last(2);
 constexpr std::array<std::string_view, 2> kConversion{"gain_e_per_dn", "iso"};
-
-std::vector<std::string> shipped_models() {
-  std::vector<std::string> names;
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(data_directory() / "sensor", missing))
-    if (entry.path().extension() == kExtension) names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 std::optional<fs::path> model_file(const std::string& name, const SourcePosition& where,
                                    LoadContext& context) {
-  if (name.ends_with(kExtension)) return context.file(name, where);
-  const std::vector<std::string> names = shipped_models();
-  if (std::find(names.begin(), names.end(), name) == names.end())
+  if (name.ends_with(".json")) return context.file(name, where);
+  const std::vector<std::string> names = shipped_names("sensor");
+  if (std::ranges::find(names, name) == names.end())
     return context.refuse(where, unknown_name("sensor", name, names));
-  context.remember(data_directory() / "sensor" / (name + std::string(kExtension)));
+  context.remember(data_directory() / "sensor" / (name + ".json"));
   return context.files.back();
 }
 
@@ -339,19 +351,19 @@ std::optional<JsonValue> read_model(const fs::path& path, LoadContext& context) 
   return complete ? std::optional(std::move(*root->find("sensor"))) : std::nullopt;
 }
 
-bool has_any(const JsonValue& object, std::span<const std::string_view> keys) {
-  return std::any_of(keys.begin(), keys.end(), [&](auto key) { return object.find(key) != nullptr; });
+bool has_any(const JsonValue& object, Keys keys) {
+  return std::ranges::any_of(keys, [&](auto key) { return object.find(key) != nullptr; });
 }
 
 // Keys of the file that the scene's sensor replaces together.
-std::span<const std::string_view> replaced_by(const JsonValue& sensor) {
+Keys replaced_by(const JsonValue& sensor) {
   if (has_any(sensor, kWhatCounts)) return kCounts;
   if (has_any(sensor, kScale)) return kScale;
   return {};
 }
 
 // Adds to `own` the members of `file` that it lacks, except those in `replaced`.
-void complete(JsonValue& own, JsonValue& file, std::span<const std::string_view> replaced) {
+void complete(JsonValue& own, JsonValue& file, Keys replaced) {
   auto* const members = std::get_if<JsonValue::Object>(&file.value);
   auto* const mine = std::get_if<JsonValue::Object>(&own.value);
   if (members == nullptr || mine == nullptr) return;
@@ -362,28 +374,6 @@ void complete(JsonValue& own, JsonValue& file, std::span<const std::string_view>
 }
 
 }  // namespace
-
-Shutter build(const spec::Shutter& spec, double exposure_s, int rows, const LoadContext& context) {
-  std::vector<Shutter::Knot> knots;
-  const double moving_s = spec.rise_s + spec.fall_s;
-  if (spec.transmission && moving_s > 0)
-    context.diagnostics.error(spec.transmission->where,
-                              "a shutter has either rise_s and fall_s, or transmission");
-  else if (spec.transmission)
-    knots = knots_of(*spec.transmission, context);
-  else if (moving_s > exposure_s)
-    context.diagnostics.error(
-        spec.where,
-        fmt::format("a shutter must open and close within the exposure time (got {} s, allowed up to {} s)",
-                    moving_s, exposure_s));
-  else
-    knots = {{0, spec.rise_s > 0 ? 0.0 : 1.0},
-             {spec.rise_s / exposure_s, 1},
-             {1 - spec.fall_s / exposure_s, 1},
-             {1, spec.fall_s > 0 ? 0.0 : 1.0}};
-  if (knots.empty()) return {};
-  return Shutter(std::move(knots), spec.row_delay_s / exposure_s, rows);
-}
 
 Sensor build(const spec::Sensor& spec, bool probe, LoadContext& context) {
   Sensor sensor;
@@ -406,7 +396,7 @@ Sensor build(const spec::Sensor& spec, bool probe, LoadContext& context) {
 
 void include_sensor_model(JsonValue& scene, LoadContext& context) {
   JsonValue* const sensor = scene.find("sensor");
-  const JsonValue* const model = sensor != nullptr ? sensor->find(kKey) : nullptr;
+  const JsonValue* const model = sensor != nullptr ? sensor->find("model") : nullptr;
   const auto* const name = model != nullptr ? std::get_if<std::string>(&model->value) : nullptr;
   if (name == nullptr) return;  // Other values are reported when the scene is read.
   const auto path = model_file(*name, model->where, context);
@@ -415,9 +405,7 @@ void include_sensor_model(JsonValue& scene, LoadContext& context) {
   JsonValue* const own = sensor->find("readout");
   JsonValue* const others = file->find("readout");
   if (own != nullptr && others != nullptr)
-    complete(*own, *others,
-             has_any(*own, kConversion) ? std::span<const std::string_view>(kConversion)
-                                        : std::span<const std::string_view>());
+    complete(*own, *others, has_any(*own, kConversion) ? Keys(kConversion) : Keys());
   complete(*sensor, *file, replaced_by(*sensor));
 }
 

@@ -20,23 +20,18 @@ namespace abbe::spec {
 /// sensor.
 struct Shutter {
   double open_s = 0;  ///< Time at which the first row opens, on the clock of keyframes.
-  double rise_s = 0;  ///< Duration of opening, at a constant rate, as part of the exposure time.
-  double fall_s = 0;  ///< Duration of closing, at a constant rate, as part of the exposure time.
-  /// Pairs of the elapsed fraction of the exposure time, ascending from 0 to 1, and the transmittance in [0,
-  /// 1] at that time, linearly interpolated. It replaces `rise_s` and `fall_s`, which must then be 0.
+  double rise_s = 0;  ///< Duration of opening, as part of the exposure time.
+  double fall_s = 0;  ///< Duration of closing, as part of the exposure time.
+  /// Pairs of the elapsed fraction of the exposure time and the transmittance then. They replace `rise_s` and
+  /// `fall_s`.
   std::optional<schema::Located<std::vector<std::array<double, 2>>>> transmission;
   double row_delay_s = 0;  ///< Delay of each row after the row above it, 0 or more.
   SourcePosition where;
 };
-/// Key table by which scene files are read, written and documented.
-[[nodiscard]] schema::Fields fields(schema::Tag<Shutter>);
-
 /// A filter whose transmittance shifts with the angle of incidence.
 struct InterferenceFilter {
-  Curve transmittance;  ///< At normal incidence, in [0, 1.05].
-  /// Effective index n in [1, 10]. At an angle of incidence t, wavelengths are multiplied by sqrt(1 -
-  /// sin(t)^2/n^2).
-  double effective_index = 1;
+  Curve transmittance;         ///< At normal incidence, in [0, 1.05].
+  double effective_index = 1;  ///< n in [1, 10]: wavelengths shift by sqrt(1 - sin(t)^2/n^2) at the angle t.
 };
 using Filter = std::variant<Curve, InterferenceFilter>;
 using Filters = std::vector<Filter>;  ///< Filters in series.
@@ -69,9 +64,6 @@ struct Bins {
   SourcePosition where;
 };
 
-// Key tables and forms by which scene files are read, written and documented.
-[[nodiscard]] schema::Fields fields(schema::Tag<Bins>);
-
 /// The pixels of a sensor and the quantities they record.
 struct Sensor {
   std::optional<std::string> model;  ///< Its keys were merged into this struct before the scene was read.
@@ -81,43 +73,31 @@ struct Sensor {
   double exposure_s = 1;           ///< Exposure time, above 0.
   std::optional<Shutter> shutter;  ///< If absent, all rows are open for the exposure time.
   double fill_factor = 1;          ///< Fraction of the pixel area that is sensitive to light, in (0, 1].
-  /// Quantities that the pixels record. `std::monostate` if neither the scene nor its sensor model gives
-  /// them.
+  /// Quantities that the pixels record; `std::monostate` if neither the scene nor its model gives them.
   std::variant<std::monostate, Channels, MeasuredCamera, StandardObserver, Bins> counts;
-  /// Kind of the responses: per unit of energy or per photon. If absent it follows from the table and other
-  /// keys.
+  /// Kind of the responses; if absent it follows from the table and other keys.
   std::optional<schema::Located<ResponseKind>> response;
   std::optional<Curve> quantum_efficiency;  ///< Electrons per photon, in [0, 10], a factor of every channel.
   /// Electrons per photon of the most sensitive channel at its maximum, which sets a common scale.
   std::optional<schema::Located<double>> peak_quantum_efficiency;
-  /// The scale given as electrons per lx s of daylight (D55) on the sensor, for a pixel of the most sensitive
-  /// channel.
+  /// The same scale, as electrons per lx s of daylight (D55) for a pixel of that channel.
   std::optional<schema::Located<double>> electrons_per_lx_s;
   std::optional<schema::Located<Filters>> filters;  ///< Filters in series before all channels.
   std::optional<Curve> lens_transmission;           ///< Transmittance of the lens, in [0, 1.05]; 1 if absent.
   std::optional<PolarisingFilter> polariser;        ///< Polariser before all channels; none if absent.
   std::optional<schema::Located<bool>> stokes;      ///< True to measure Stokes vectors; false if absent.
-  /// Names of the channels of the pixels: rows of a pattern that repeats from the top left. If absent, each
-  /// pixel records all channels.
+  /// Names of channels: rows of a pattern that repeats from the top left. If absent, pixels record all.
   std::optional<schema::Located<std::vector<schema::Located<std::vector<schema::Located<std::string>>>>>>
       mosaic;
   std::optional<schema::Located<Readout>> readout;  ///< Conversion of electrons to codes; none if absent.
   SourcePosition where;
 };
+/// Key table by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<Sensor>);
 
 }  // namespace abbe::spec
 
 namespace abbe::description {
-
-/// Builds the shutter of a sensor with `rows` rows and the exposure time `exposure_s` > 0, with times as
-/// fractions of it. Reports to `context.diagnostics`:
-/// - both a transmission and a rise or fall;
-/// - a rise and fall that together exceed the exposure time;
-/// - a transmission whose fractions decrease or do not run from 0 to 1, or that passes no light.
-/// After an error the shutter is fully open for the exposure time, without a row delay.
-[[nodiscard]] Shutter build(const spec::Shutter& spec, double exposure_s, int rows,
-                            const LoadContext& context);
 
 /// A sensor in SI units.
 struct Sensor {
@@ -133,22 +113,16 @@ struct Sensor {
   std::optional<SpectralBins> spectral;  ///< Wavelength bins of a spectral sensor; nothing for others.
 };
 /// Builds a sensor and reports its errors to `context.diagnostics`; parts with an error are missing or have
-/// defaults. `probe` is true for the sensor of an irradiance probe: it has one pixel unless the file gives a
-/// resolution, and may not record polarisation. Reports more than 65536 pixels along an edge, or 2^28 in all,
-/// with ErrorCode::resource.
+/// defaults: a shutter is then open for the exposure time. `probe` is true for the sensor of an irradiance
+/// probe: it has one pixel unless the file gives a resolution, and may not record polarisation. Reports more
+/// than 65536 pixels along an edge, or 2^28 in all, with ErrorCode::resource.
 [[nodiscard]] Sensor build(const spec::Sensor& sensor, bool probe, LoadContext& context);
 
-/// Builds the wavelength bins. Reports bins that do not fill their range, fewer than 2 and more than 1000,
-/// and returns nothing.
-[[nodiscard]] std::optional<SpectralBins> build_bins(const spec::Bins& spec, LoadContext& context);
-
-/// Sets `sensor.channels`, with all filters applied, and `sensor.spectral`. Channels without their own
-/// exposure time have that of the sensor. A channel with an error is missing. Reports to
-/// `context.diagnostics`:
-/// - combinations of keys that exclude each other, and names that are not plain;
+/// Sets `sensor.channels`, with all filters applied, and `sensor.spectral`. A channel with an error is
+/// missing. Reports to `context.diagnostics`:
+/// - keys that exclude each other, names that are not plain, and bins that do not fill their range;
 /// - a channel that responds to no wavelength;
-/// - tables of filters and responses that end, without a declared extrapolation, within the range of a
-///   channel.
+/// - tables that end, without a declared extrapolation, within the range of a channel.
 /// Warns of filters that end there and are declared 0 outside. The range excludes a negligible fraction.
 void build_channels(const spec::Sensor& spec, Sensor& sensor, LoadContext& context);
 

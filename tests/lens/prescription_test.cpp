@@ -27,8 +27,8 @@ void expect_json_fault(const std::string& text, const std::string& place, const 
 }
 
 TEST(LensPrescription, ShippedLensesAreWhatTheyAreCalled) {
-  EXPECT_EQ(lens_names().size(), 6U);
-  for (const std::string& name : lens_names()) {
+  EXPECT_EQ(description::shipped_names("lens").size(), 6U);
+  for (const std::string& name : description::shipped_names("lens")) {
     const auto loaded = test::load_said(name);
     ASSERT_TRUE(loaded.system) << loaded.text();
     EXPECT_TRUE(loaded.diagnostics.all().empty()) << loaded.text();
