@@ -182,23 +182,119 @@ bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading
   return true;
 }
 
+/// A strided view of elements in a buffer of a tinygltf::Model, which must outlive it. `numbers_of` ensures
+/// that all elements lie within the buffer, which the library does not check.
+struct GltfNumbers {
+  const unsigned char* first;  ///< First byte of the first element; need not be aligned.
+  std::size_t count;           ///< Number of elements, at least 1.
+  std::size_t stride;          ///< Distance between elements [bytes].
+  int component_type;          ///< A TINYGLTF_COMPONENT_TYPE.
+
+  template <typename T>
+  [[nodiscard]] T at(std::size_t i, std::size_t component = 0) const {
+    T value;
+    std::memcpy(&value, first + i * stride + component * sizeof value, sizeof value);
+    return value;
+  }
+  [[nodiscard]] std::uint32_t index_at(std::size_t i) const {
+    if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return at<std::uint8_t>(i);
+    if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return at<std::uint16_t>(i);
+    return at<std::uint32_t>(i);
+  }
+  [[nodiscard]] Imath::V3d vector_at(std::size_t i) const {
+    return Imath::V3d(Imath::V3f(at<float>(i, 0), at<float>(i, 1), at<float>(i, 2)));
+  }
+  // Bytes and shorts are fractions of their maximum.
+  [[nodiscard]] float fraction_at(std::size_t i, std::size_t component) const {
+    if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
+      return static_cast<float>(at<std::uint8_t>(i, component)) / 255;
+    if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+      return static_cast<float>(at<std::uint16_t>(i, component)) / 65535;
+    return at<float>(i, component);
+  }
+};
+
+/// Element of a list that the file refers to by its index, counted from 0; nullptr if it is out of range.
+template <typename T>
+const T* at(const std::vector<T>& list, int index) {
+  return index >= 0 && static_cast<std::size_t>(index) < list.size() ? &list[static_cast<std::size_t>(index)]
+                                                                     : nullptr;
+}
+
+/// Form of the elements of an accessor.
+struct GltfForm {
+  int type;                          ///< TINYGLTF_TYPE_SCALAR, VEC2 or VEC3.
+  std::vector<int> component_types;  ///< Those allowed.
+  const char* fault;                 ///< Error message for other components.
+};
+
+/// The elements of an accessor. Nothing, after setting `reading.fault`, for one that does not exist, has
+/// another form, is sparse or empty, or exceeds its buffer.
+std::optional<GltfNumbers> numbers_of(const tinygltf::Model& model, int index, const GltfForm& form,
+                                      MeshReading& reading) {
+  const auto refuse = [&](const std::string& what) {
+    reading.refuse(fmt::format("accessor {}: {}", index, what));
+    return std::nullopt;
+  };
+  const auto* accessor = at(model.accessors, index);
+  if (!accessor) return refuse("it does not exist");
+  if (accessor->sparse.isSparse) return refuse("sparse accessors are not supported");
+  if (accessor->type != form.type)
+    return refuse(fmt::format("wrong type (allowed {})", form.type == TINYGLTF_TYPE_VEC3   ? "VEC3"
+                                                         : form.type == TINYGLTF_TYPE_VEC2 ? "VEC2"
+                                                                                           : "SCALAR"));
+  const auto* view = at(model.bufferViews, accessor->bufferView);
+  const auto* buffer = view ? at(model.buffers, view->buffer) : nullptr;
+  if (!buffer || view->byteOffset > buffer->data.size() ||
+      view->byteLength > buffer->data.size() - view->byteOffset)
+    return refuse("its view exceeds the buffer or does not exist");
+  const int stride = accessor->ByteStride(*view);
+  const int width = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor->componentType)) *
+                    tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(form.type));
+  if (width <= 0) return refuse("unknown component type");
+  if (accessor->count == 0) return refuse("it is empty");
+  const std::size_t room = view->byteLength;
+  const GltfNumbers numbers{buffer->data.data() + view->byteOffset + std::min(accessor->byteOffset, room),
+                            accessor->count, static_cast<std::size_t>(std::max(stride, 0)),
+                            accessor->componentType};
+  if (stride < width || accessor->byteOffset > room ||
+      static_cast<std::size_t>(width) > room - accessor->byteOffset ||
+      numbers.count - 1 > (room - accessor->byteOffset - static_cast<std::size_t>(width)) / numbers.stride)
+    return refuse("it needs more bytes than the buffer holds");
+  if (std::ranges::find(form.component_types, numbers.component_type) != form.component_types.end())
+    return numbers;
+  reading.refuse(form.fault);
+  return std::nullopt;
+}
+
+// Index of the accessor of an attribute, if the primitive has it.
+std::optional<int> attribute(const tinygltf::Primitive& primitive, const char* name) {
+  const auto found = primitive.attributes.find(name);
+  return found == primitive.attributes.end() ? std::nullopt : std::optional(found->second);
+}
+
+// Largest number of triangles, and of vertices, of one material. It is counted after nodes are expanded: a
+// small file can repeat a mesh many times.
+constexpr double kMaxTriangles = 67108864;
+
 /// The meshes of all nodes so far, by material.
 using MeshesByMaterial = std::map<std::optional<std::size_t>, Mesh>;
 
-/// Reads the texture coordinates of the vertices of a primitive. None if it has none or they are not
-/// requested. False after a fault.
+/// Reads the texture coordinates of the vertices of a primitive; none if it has none or they are not
+/// requested. v increases downwards in glTF and upwards in the result. False after a fault.
 bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                       std::vector<Imath::V2f>& coordinates, MeshReading& reading) {
-  const auto named = primitive.attributes.find("TEXCOORD_0");
-  if (reading.coordinates == FileCoordinates::ignored || named == primitive.attributes.end()) return true;
-  const auto numbers = numbers_of(model, named->second, TINYGLTF_TYPE_VEC2, reading);
+  const auto named = attribute(primitive, "TEXCOORD_0");
+  if (reading.coordinates == FileCoordinates::ignored || !named) return true;
+  const auto numbers = numbers_of(model, *named,
+                                  {TINYGLTF_TYPE_VEC2,
+                                   {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+                                    TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_COMPONENT_TYPE_FLOAT},
+                                   "texture coordinates must be floats, bytes or shorts"},
+                                  reading);
   if (!numbers) return false;
-  if (numbers->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-      numbers->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-      numbers->component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
-    return reading.refuse("texture coordinates must be floats, bytes or shorts");
   for (std::size_t i = 0; i < numbers->count; ++i) {
-    coordinates.push_back(coordinates_at(*numbers, i));
+    coordinates.emplace_back(numbers->fraction_at(i, 0), 1 - numbers->fraction_at(i, 1));
     if (!std::isfinite(coordinates.back().x) || !std::isfinite(coordinates.back().y))
       return reading.refuse(fmt::format("texture coordinates of vertex {} are not finite", i));
   }
@@ -209,15 +305,15 @@ bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& p
 /// False after a fault.
 bool read_normals(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
                   std::vector<Imath::V3f>& normals, MeshReading& reading) {
-  const auto named = primitive.attributes.find("NORMAL");
-  if (named == primitive.attributes.end()) return true;
-  const auto numbers = numbers_of(model, named->second, TINYGLTF_TYPE_VEC3, reading);
+  const auto named = attribute(primitive, "NORMAL");
+  if (!named) return true;
+  const auto numbers =
+      numbers_of(model, *named,
+                 {TINYGLTF_TYPE_VEC3, {TINYGLTF_COMPONENT_TYPE_FLOAT}, "normals must be floats"}, reading);
   if (!numbers) return false;
-  if (numbers->component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
-    return reading.refuse("normals must be floats");
   const Placement at = placement(map);
   for (std::size_t i = 0; i < numbers->count; ++i)
-    normals.push_back(unit_normal(normal_to_world(at, vector_at(*numbers, i))));
+    normals.push_back(unit_normal(normal_to_world(at, numbers->vector_at(i))));
   return true;
 }
 
@@ -250,20 +346,19 @@ bool add_normals(const std::array<std::size_t, 3>& triangle, std::size_t base,
 // Adds the triangles of a primitive, transformed by `map`, to the mesh of its material. False after a fault.
 bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
                    MeshesByMaterial& meshes, MeshReading& reading) {
-  const auto named = primitive.attributes.find("POSITION");
-  const auto positions = numbers_of(model, named == primitive.attributes.end() ? -1 : named->second,
-                                    TINYGLTF_TYPE_VEC3, reading);
+  const auto positions =
+      numbers_of(model, attribute(primitive, "POSITION").value_or(-1),
+                 {TINYGLTF_TYPE_VEC3, {TINYGLTF_COMPONENT_TYPE_FLOAT}, "positions must be floats"}, reading);
   if (!positions) return false;
-  if (positions->component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
-    return reading.refuse("positions must be floats");
   std::optional<GltfNumbers> indices;
   if (primitive.indices >= 0) {
-    indices = numbers_of(model, primitive.indices, TINYGLTF_TYPE_SCALAR, reading);
+    indices = numbers_of(model, primitive.indices,
+                         {TINYGLTF_TYPE_SCALAR,
+                          {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+                           TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
+                          "indices must be integers >= 0"},
+                         reading);
     if (!indices) return false;
-    if (indices->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-        indices->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-        indices->component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
-      return reading.refuse("indices must be integers >= 0");
   }
   std::optional<std::size_t> material;
   if (reading.materials != FileMaterials::ignored && primitive.material >= 0)
@@ -276,7 +371,7 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
     return reading.refuse(fmt::format("too many triangles (allowed {})", kMaxTriangles));
   reading.make_room(mesh.vertices, positions->count);
   reading.make_room(mesh.triangles, triangles.size());
-  for (std::size_t i = 0; i < positions->count; ++i) mesh.vertices.push_back(vector_at(*positions, i) * map);
+  for (std::size_t i = 0; i < positions->count; ++i) mesh.vertices.push_back(positions->vector_at(i) * map);
   std::vector<Imath::V2f> coordinates;
   if (!read_coordinates(model, primitive, coordinates, reading)) return false;
   if (!coordinates.empty() && coordinates.size() != positions->count)
@@ -292,7 +387,7 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
   const bool mirror = map.determinant() < 0;
   for (std::array<std::size_t, 3> triangle : triangles) {
     for (std::size_t& corner : triangle) {
-      if (indices) corner = index_at(*indices, corner);
+      if (indices) corner = indices->index_at(corner);
       if (corner >= positions->count)
         return reading.refuse(
             fmt::format("an index names a vertex that does not exist (got {}, allowed [0, {}])", corner,
@@ -365,13 +460,6 @@ bool add_scene_meshes(const tinygltf::Model& model, MeshesByMaterial& meshes, Me
   return true;
 }
 
-void make_names_distinct(std::vector<FileMaterial>& materials) {
-  std::vector<std::string> names;
-  for (const FileMaterial& material : materials) names.push_back(material.name);
-  names = distinct_names(std::move(names));
-  for (std::size_t i = 0; i < names.size(); ++i) materials[i].name = std::move(names[i]);
-}
-
 }  // namespace
 
 bool read_gltf(std::string&& bytes, MeshReading& reading) {
@@ -390,7 +478,10 @@ bool read_gltf(std::string&& bytes, MeshReading& reading) {
       reading.file.materials.push_back({kDefaultGltfMaterial, {1, 1, 1}, std::nullopt, {"metallic 1"}});
     }
   }
-  make_names_distinct(reading.file.materials);
+  std::vector<std::string> names;
+  for (const FileMaterial& material : reading.file.materials) names.push_back(material.name);
+  names = distinct_names(std::move(names));
+  for (std::size_t i = 0; i < names.size(); ++i) reading.file.materials[i].name = std::move(names[i]);
   for (auto& [material, mesh] : meshes) {
     if (mesh.triangles.empty()) continue;  // Only points and lines.
     if (mesh.coordinates.size() < mesh.triangles.size()) mesh.coordinates.clear();

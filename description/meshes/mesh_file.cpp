@@ -25,11 +25,14 @@ bool is_packed_ply(const std::filesystem::path& path) {
   return extension_of(path) == ".gz" && extension_of(path.stem()) == ".ply";
 }
 
-bool read_format(std::string&& bytes, MeshReading& reading) {
-  const std::string extension = extension_of(reading.path);
-  if (extension == ".obj") return read_obj(std::move(bytes), reading);
-  if (extension == ".gltf" || extension == ".glb") return read_gltf(std::move(bytes), reading);
-  return read_ply(std::move(bytes), reading);
+using MeshReader = bool (*)(std::string&&, MeshReading&);
+
+// The reader for the extension of a file; nullptr for an unknown extension.
+MeshReader reader_of(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  if (extension == ".obj") return read_obj;
+  if (extension == ".gltf" || extension == ".glb") return read_gltf;
+  return extension == ".ply" || is_packed_ply(path) ? read_ply : nullptr;
 }
 
 // Moves the triangles of zero area to `slivers`, and returns their number.
@@ -54,35 +57,16 @@ std::size_t drop_slivers(Mesh& mesh) {
 void complete_normals(Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
     std::array<Imath::V3f, 3>& corners = mesh.normals[i];
-    const auto missing = [](const Imath::V3f& normal) { return normal == Imath::V3f(0); };
-    if (std::any_of(corners.begin(), corners.end(), missing))
+    if (std::ranges::find(corners, Imath::V3f(0)) != corners.end())
       corners.fill(Imath::V3f(area_vector(mesh, i).normalized()));
   }
-}
-
-bool known_format(const std::filesystem::path& path) {
-  return may_have_materials(path) || extension_of(path) == ".ply" || is_packed_ply(path);
-}
-
-constexpr std::size_t kPiece = std::size_t{1} << 20;
-
-struct Close {
-  void operator()(gzFile file) const { (void)gzclose(file); }
-};
-using File = std::unique_ptr<gzFile_s, Close>;
-
-std::string fault_of(gzFile file) {
-  int code = Z_OK;
-  const char* message = gzerror(file, &code);
-  return code == Z_BUF_ERROR ? "truncated: the compressed data are incomplete"
-                             : fmt::format("damaged ({})", message);
 }
 
 }  // namespace
 
 bool may_have_materials(const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
-  return extension == ".obj" || extension == ".gltf" || extension == ".glb";
+  const MeshReader reader = reader_of(path);
+  return reader == read_obj || reader == read_gltf;
 }
 
 std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, std::string& bytes,
@@ -124,10 +108,11 @@ std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMa
   MeshReading reading{path, materials, coordinates, {}, {}, {}, {inputs, 0}};
   std::string bytes;
   if (const auto fault = read_mesh_bytes(path, bytes, reading.memory)) return refuse(*fault);
-  if (!known_format(path))
+  const MeshReader read = reader_of(path);
+  if (read == nullptr)
     return refuse(fmt::format("unknown format (got \"{}\", allowed .ply, .ply.gz, .obj, .gltf, .glb)",
                               path.extension().string()));
-  if (!read_format(std::move(bytes), reading)) return refuse(reading.fault);
+  if (!read(std::move(bytes), reading)) return refuse(reading.fault);
   if (reading.file.submeshes.empty()) return refuse("no faces");
   for (MeshFile::Submesh& part : reading.file.submeshes)
     if (!check_mesh(part.mesh, where, diagnostics)) return std::nullopt;
@@ -164,7 +149,8 @@ bool check_mesh(Mesh& mesh, const SourcePosition& where, Diagnostics& diagnostic
 
 std::optional<std::string> read_gzip_bytes(const std::filesystem::path& path, std::size_t limit,
                                            std::string& bytes, MemoryReservation& memory) {
-  const File file(gzopen(path.c_str(), "rb"));
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
   if (!file) return "cannot open the file";
   for (;;) {
     const std::size_t previous_size = bytes.size();
@@ -177,8 +163,9 @@ std::optional<std::string> read_gzip_bytes(const std::filesystem::path& path, st
     const int read = gzread(file.get(), bytes.data() + previous_size, static_cast<unsigned>(kPiece));
     bytes.resize(previous_size + static_cast<std::size_t>(std::max(read, 0)));
     int code = Z_OK;
-    (void)gzerror(file.get(), &code);
-    if (read < 0 || code == Z_BUF_ERROR) return fault_of(file.get());
+    const char* const message = gzerror(file.get(), &code);
+    if (code == Z_BUF_ERROR) return "truncated: the compressed data are incomplete";
+    if (read < 0) return fmt::format("damaged ({})", message);
     if (gzdirect(file.get()) != 0) return "is not a gzip file";
     if (bytes.size() > limit) return fmt::format("unpacks to more than {} bytes", limit);
     if (read == 0) return std::nullopt;

@@ -89,10 +89,6 @@ void add_corners(const std::vector<Corner>& polygon, const std::vector<Triangle>
   return length2 > 0 && std::isfinite(length2) ? Imath::V3f(given.normalized()) : Imath::V3f(0);
 }
 
-/// Largest number of triangles, and of vertices, that one material of a glTF file may have. It is counted
-/// after nodes are expanded: a small file can repeat a mesh many times.
-inline constexpr double kMaxTriangles = 67108864;
-
 /// Decompresses the file `path` [RFC1952] and appends the result to `bytes`. Returns nothing on success, and
 /// otherwise an error message without the path:
 /// - a file that cannot be opened, is not in gzip format, is damaged or is truncated;
