@@ -57,6 +57,9 @@ struct JsonValue::Member {
 /// one line if it fits into `width` bytes with its indentation and a comma.
 [[nodiscard]] std::string to_lines(const JsonValue& value, std::size_t width);
 
+/// A key escaped for a JSON pointer: "~0" for "~", "~1" for "/" [RFC6901].
+[[nodiscard]] std::string escaped(std::string_view key);
+
 /// Sets the value at a JSON pointer (RFC 6901), such as "/render/samples", in `root`; the empty pointer
 /// replaces `root`. `text` is JSON. Text that is not JSON, such as a bare word or path, is taken as a string.
 /// Missing objects on the path are created. The index after the last element of an array, or "-", appends.

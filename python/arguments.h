@@ -1,11 +1,15 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/pybind11.h>
 
 #include "io/error.h"
@@ -59,13 +63,28 @@ inline void forbid_bare_new(const pybind11::handle& of_class) {
   throw Error(ErrorCode::usage, "", no_utf8(text));
 }
 
+/// Throws Error{usage} about an argument, with a message in the format of fmt.
+template <typename... Values>
+[[noreturn]] void refuse_argument(const std::string& argument, fmt::format_string<Values...> message,
+                                  Values&&... values) {
+  throw Error(ErrorCode::usage, argument, fmt::format(message, std::forward<Values>(values)...));
+}
+
+/// Index of `text` in `allowed`. Throws Error{usage}, which lists them, for other texts.
+[[nodiscard]] inline std::size_t choice(const char* argument, const std::string& text,
+                                        std::initializer_list<const char*> allowed) {
+  const auto found = std::ranges::find(allowed, text);
+  if (found == allowed.end())
+    refuse_argument(argument, "got \"{}\", allowed {}", text, fmt::join(allowed, ", "));
+  return static_cast<std::size_t>(found - allowed.begin());
+}
+
 /// The quantity that a camera's curves multiply, from the text of an argument: "energy" or "quantum". Nothing
-/// for the empty text. Throws Error{usage}, which names the argument `argument`, for other texts.
+/// for the empty text. Throws Error{usage} for other texts.
 [[nodiscard]] inline std::optional<ResponseKind> response_of(const char* argument, const std::string& text) {
   if (text.empty()) return std::nullopt;
-  if (text == "energy") return ResponseKind::energy;
-  if (text == "quantum") return ResponseKind::quantum;
-  throw Error(ErrorCode::usage, argument, fmt::format("got \"{}\", allowed energy, quantum", text));
+  constexpr std::array kKinds{ResponseKind::energy, ResponseKind::quantum};
+  return kKinds.at(choice(argument, text, {"energy", "quantum"}));
 }
 
 }  // namespace abbe::python

@@ -69,20 +69,18 @@ py::dict dict_of(const CameraCalibration& made) {
 
 // Throws if an argument has no effect because of another one, as the command does for its options.
 void require_effect(const CalibrationSource& source, bool is_measured, bool has_bits) {
-  const auto refuse = [](const char* argument, const char* why) {
-    throw Error(ErrorCode::usage, argument, why);
-  };
   if (is_measured && !source.planted_response.empty())
-    refuse("response", "is planted into a simulated camera, not into a measured one");
-  if (is_measured && has_bits) refuse("bits", "are those of a simulated camera, not of a measured one");
+    refuse_argument("response", "is planted into a simulated camera, not into a measured one");
+  if (is_measured && has_bits)
+    refuse_argument("bits", "are those of a simulated camera, not of a measured one");
   if (!source.series.empty() && !is_measured)
-    refuse("series", "needs measured; recover_response returns the curves alone");
+    refuse_argument("series", "needs measured; recover_response returns the curves alone");
   if (source.camera.empty() && (!is_measured || !source.training.empty()))
-    refuse("camera", "is needed, unless measured is given without training");
+    refuse_argument("camera", "is needed, unless measured is given without training");
   if (!source.camera.empty() && is_measured && source.training.empty())
-    refuse("camera", "is allowed with measured only for training, to which its curves apply");
+    refuse_argument("camera", "is allowed with measured only for training, to which its curves apply");
   if (source.camera.empty() && source.camera_response)
-    refuse("camera_response", "needs camera, to whose curves it applies");
+    refuse_argument("camera_response", "needs camera, to whose curves it applies");
 }
 
 py::dict calibrate(const std::string& camera, const std::string& illuminant, const std::string& chart,
@@ -101,8 +99,8 @@ py::dict calibrate(const std::string& camera, const std::string& illuminant, con
   source.camera_response = response_of("camera_response", camera_response);
   require_effect(source, measured.has_value(), bits.has_value());
   if (!choose_correction(source.how, correction))
-    throw Error(ErrorCode::usage, "correction",
-                fmt::format("expected {} or auto (got {})", fmt::join(kCorrectionNames, ", "), correction));
+    refuse_argument("correction", "expected {} or auto (got {})", fmt::join(kCorrectionNames, ", "),
+                    correction);
   std::optional<CalibrationCase> made;
   Diagnostics diagnostics;
   {

@@ -23,9 +23,7 @@ namespace {
 namespace py = pybind11;
 
 Observer observer_of(const std::string& name) {
-  if (name == "1931") return Observer::cie1931;
-  if (name == "1964") return Observer::cie1964;
-  throw Error(ErrorCode::usage, "observer", fmt::format("got \"{}\", allowed 1931, 1964", name));
+  return choice("observer", name, {"1931", "1964"}) == 0 ? Observer::cie1931 : Observer::cie1964;
 }
 
 py::object values_of(const std::string& name, const Curve& curve, const Numbers& wavelengths_nm) {
@@ -41,13 +39,9 @@ NeededRange needed_at(const Numbers& wavelengths_nm) {
   return needed;
 }
 
-Curve illuminant_over(const std::string& name, NeededRange needed) {
+Curve named_illuminant(const std::string& name, NeededRange needed = {}) {
   Diagnostics diagnostics;
   return accepted(load_illuminant(name, {}, diagnostics, needed), diagnostics).curve;
-}
-
-Curve named_illuminant(const std::string& name) {
-  return illuminant_over(name, {});
 }
 
 Curve named_reflectance(const std::string& name) {
@@ -56,7 +50,7 @@ Curve named_reflectance(const std::string& name) {
 }
 
 py::object illuminant(const std::string& name, const Numbers& wavelengths_nm) {
-  return values_of(name, illuminant_over(name, needed_at(wavelengths_nm)), wavelengths_nm);
+  return values_of(name, named_illuminant(name, needed_at(wavelengths_nm)), wavelengths_nm);
 }
 
 py::object curve(const std::string& kind, const std::string& name, const Numbers& wavelengths_nm) {
@@ -88,14 +82,12 @@ py::dict camera(const std::string& name, const Numbers& wavelengths_nm, const st
 Curve sampled(const Numbers& wavelengths_nm, const Numbers& values) {
   const std::span<const double> nm = span_of(wavelengths_nm);
   if (nm.size() != span_of(values).size() || nm.size() < 2)
-    throw Error(ErrorCode::usage, "spectrum",
-                fmt::format("got {} wavelengths and {} values, allowed equal numbers of two or more",
-                            nm.size(), span_of(values).size()));
+    refuse_argument("spectrum", "got {} wavelengths and {} values, allowed equal numbers of two or more",
+                    nm.size(), span_of(values).size());
   for (std::size_t i = 0; i < nm.size(); ++i)
     if (!std::isfinite(nm[i]) || !std::isfinite(span_of(values)[i]) || (i > 0 && !(nm[i] > nm[i - 1])))
-      throw Error(ErrorCode::usage, "spectrum",
-                  fmt::format("got {} at {} nm, allowed finite values at ascending wavelengths",
-                              span_of(values)[i], nm[i]));
+      refuse_argument("spectrum", "got {} at {} nm, allowed finite values at ascending wavelengths",
+                      span_of(values)[i], nm[i]);
   if (const auto fault = range_fault(nm.front(), nm.back()))
     throw Error(ErrorCode::usage, "spectrum", *fault);
   return table_curve(nm, span_of(values), Outside::zero);
@@ -112,17 +104,13 @@ Curve curve_of(const py::handle& spectrum, const char* name, const CurveUse& use
   return curve;
 }
 
-SumRange range_of(const std::string& name) {
-  for (const SumRange range : {SumRange{}, kVisibleRange})
-    if (name == fmt::format("{}-{}", range.low_nm, range.high_nm)) return range;
-  throw Error(ErrorCode::usage, "range", fmt::format("got \"{}\", allowed 360-830, 380-780", name));
-}
-
 py::dict color(const py::object& illuminant, const py::object& reflectance, const std::string& observer,
                const std::string& range_name) {
-  const SumRange range = range_of(range_name);
+  const SumRange range =
+      choice("range", range_name, {"360-830", "380-780"}) == 0 ? SumRange{} : kVisibleRange;
   const Observer eye = observer_of(observer);
-  const Curve light = curve_of(illuminant, "illuminant", kIlluminantUse, named_illuminant);
+  const Curve light = curve_of(illuminant, "illuminant", kIlluminantUse,
+                               [](const std::string& name) { return named_illuminant(name); });
   const Curve surface = reflectance.is_none()
                             ? Curve(1.0)
                             : curve_of(reflectance, "reflectance", kReflectanceUse, named_reflectance);
@@ -139,12 +127,7 @@ py::dict color(const py::object& illuminant, const py::object& reflectance, cons
 }
 
 py::object lab_difference(const Numbers& lab1, const Numbers& lab2, const std::string& formula) {
-  constexpr std::array<const char*, 5> kFormulas{"2000", "94", "76", "cam16", "itp"};
-  const auto* const found = std::find(kFormulas.begin(), kFormulas.end(), formula);
-  if (found == kFormulas.end())
-    throw Error(ErrorCode::usage, "formula",
-                fmt::format("got \"{}\", allowed {}", formula, fmt::join(kFormulas, ", ")));
-  const auto how = static_cast<DeltaE>(found - kFormulas.begin());
+  const auto how = static_cast<DeltaE>(choice("formula", formula, {"2000", "94", "76", "cam16", "itp"}));
   const auto [standard, sample] = broadcast(lab1, lab2, "lab1", "lab2");
   const py::ssize_t axes = standard.ndim();
   if (axes == 0 || standard.shape(axes - 1) != 3)
@@ -164,7 +147,7 @@ std::vector<std::string> names(const std::string& kind) {
   if (kind == "glass") return glass_names();
   const std::vector<std::string> kinds{"material", "glass",  "illuminant", "reflectance",
                                        "camera",   "filter", "observer"};
-  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+  if (std::ranges::find(kinds, kind) == kinds.end())
     throw Error(ErrorCode::usage, "kind", unknown_name("kind", kind, kinds));
   return table_names(kind);
 }

@@ -32,21 +32,7 @@ constexpr const char* kReadout = "/readout";
 struct Developed {
   FilmSensor sensor;
   DevelopedFilm planes;
-
-  [[nodiscard]] Image picture() const { return display_picture(sensor, planes.calibrated); }
 };
-
-std::vector<std::string> names_of(const Image& image, const std::string& prefix) {
-  std::vector<std::string> names;
-  for (const ImageChannel& channel : image.channels)
-    if (channel.name.starts_with(prefix)) names.push_back(channel.name);
-  return names;
-}
-
-py::object array_of(const Image& image, std::vector<std::string> planes, const std::string& prefix = "") {
-  for (std::string& name : planes) name = prefix + name;
-  return planes_of(image, planes);
-}
 
 FilmSensor sensor_of(const Image& film, const py::object& readout, const std::optional<White>& white) {
   std::vector<Override> overrides;
@@ -76,12 +62,11 @@ ExposedFilm exposed(const FilmHandle& film, SceneHandle* sensor_scene, const py:
   const Image& image = film.image();
   if (is_spectral(image) && sensor_scene != nullptr) return observed(film, *sensor_scene, readout, white);
   if (sensor_scene != nullptr)
-    throw Error(ErrorCode::usage, "scene",
-                "only a spectral film can be viewed by a scene's sensor; this film has its own sensor");
+    refuse_argument("scene",
+                    "only a spectral film can be viewed by a scene's sensor; this film has its own sensor");
   const auto requested = white ? std::optional(requested_white(*white, image, "white")) : std::nullopt;
   if (is_spectral(image) && !readout.is_none())
-    throw Error(ErrorCode::usage, "readout",
-                "a spectral film has no sensor to read out; `scene` supplies one");
+    refuse_argument("readout", "a spectral film has no sensor to read out; `scene` supplies one");
   if (!is_spectral(image)) return {image, sensor_of(image, readout, requested)};
   ExposedFilm observed = observed_film(spectral_image(image, kWhere), kWhere, {},
                                        requested ? std::optional(requested->xy) : std::nullopt);
@@ -96,7 +81,7 @@ Developed develop_film(const FilmHandle& film, const py::object& readout, const 
       white.is_none() ? std::nullopt : std::optional(to_text(to_json(white, kWhitePointer)));
   ExposedFilm source = exposed(film, scene, readout, requested);
   if (seed && !source.sensor.readout)
-    throw Error(ErrorCode::usage, "seed", "the film has no readout, so that there is no noise to seed");
+    refuse_argument("seed", "the film has no readout, so that there is no noise to seed");
   const std::uint64_t noise = seed ? static_cast<std::uint64_t>(*seed) : render_seed(source.film);
   const GilReleased released;
   DevelopedFilm planes = develop(source, noise);
@@ -109,7 +94,7 @@ void write_developed(const Developed& developed, const fs::path& path) {
     return write_parts(path, developed.planes, display_planes(developed.sensor, developed.planes.calibrated),
                        developed.sensor);
   if (!developed.sensor.readout)
-    throw Error(ErrorCode::usage, path.string(), "the film has no readout and therefore no digital numbers");
+    refuse_argument(path.string(), "the film has no readout and therefore no digital numbers");
   if (const auto dark = unequal_dark_signals_warning(developed.sensor)) warn(*dark);
   write_raw(path, developed.planes, developed.sensor);
 }
@@ -137,11 +122,6 @@ py::list figures(const Developed& developed) {
   return all;
 }
 
-py::object picture_array(const Developed& developed) {
-  const Image picture = developed.picture();
-  return planes_of(picture, names_of(picture, ""));
-}
-
 }  // namespace
 
 void add_develop(py::module_& module) {
@@ -150,32 +130,32 @@ void add_develop(py::module_& module) {
       "A film after readout: an array of rows, columns and planes for each step from light to digital "
       "numbers. Steps that the film's sensor lacks are None.");
   forbid_bare_new(developed);
+  developed.def_property_readonly(
+      "planes", [](const Developed& d) { return d.sensor.planes; }, "The names of the planes of the arrays.");
+  const auto add_array = [&](const char* name, Image DevelopedFilm::*step, const char* prefix,
+                             const char* text) {
+    const auto array = [step, prefix](const Developed& d) {
+      std::vector<std::string> names = d.sensor.planes;
+      for (std::string& plane : names) plane = prefix + plane;
+      return planes_of(d.planes.*step, names);
+    };
+    developed.def_property_readonly(name, array, text);
+  };
+  add_array("exposure", &DevelopedFilm::exposure, "", "The film values before readout.");
+  add_array("electrons", &DevelopedFilm::electrons, "",
+            "The expected number of photoelectrons of each pixel.");
+  add_array("codes", &DevelopedFilm::codes, "", "The digital numbers, with all noise.");
+  add_array("saturated", &DevelopedFilm::codes, "Saturated.", "1 where a pixel saturated, 0 elsewhere.");
+  add_array("calibrated", &DevelopedFilm::calibrated, "",
+            "The exposure estimated from the digital numbers; without a readout the exposure itself.");
   developed
-      .def_property_readonly(
-          "planes", [](const Developed& d) { return d.sensor.planes; },
-          "The names of the planes of the arrays.")
-      .def_property_readonly(
-          "exposure", [](const Developed& d) { return array_of(d.planes.exposure, d.sensor.planes); },
-          "The film values before readout.")
-      .def_property_readonly(
-          "electrons", [](const Developed& d) { return array_of(d.planes.electrons, d.sensor.planes); },
-          "The expected number of photoelectrons of each pixel.")
-      .def_property_readonly(
-          "codes", [](const Developed& d) { return array_of(d.planes.codes, d.sensor.planes); },
-          "The digital numbers, with all noise.")
-      .def_property_readonly(
-          "saturated",
-          [](const Developed& d) { return array_of(d.planes.codes, d.sensor.planes, "Saturated."); },
-          "1 where a pixel saturated, 0 elsewhere.")
-      .def_property_readonly(
-          "calibrated", [](const Developed& d) { return array_of(d.planes.calibrated, d.sensor.planes); },
-          "The exposure estimated from the digital numbers; without a readout the exposure itself.")
       .def_property_readonly("figures", figures,
                              "A list of dicts, one for each plane: its mean, the error of the render (None "
                              "if unknown), and the noise of the sensor, in electrons if there is a readout.")
-      .def("picture", picture_array,
-           "Returns the picture on an sRGB display, as code values in [0, 1]. Raises UsageError if no "
-           "display can show the sensor's channels.")
+      .def(
+          "picture", [](const Developed& d) { return picture_array(d.sensor, d.planes.calibrated); },
+          "Returns the picture on an sRGB display, as code values in [0, 1]. Raises UsageError if no "
+          "display can show the sensor's channels.")
       .def("write", write_developed, py::arg("path"),
            "Writes the digital numbers to a 16-bit .tif or .png, or all planes to an .exr with parts. Raises "
            "OutputError.")

@@ -52,12 +52,10 @@ py::object spectrum(const FilmHandle& film, Whole<int> column, Whole<int> row) {
   const int y = row;
   const Image& image = film.image();
   if (!is_spectral(image))
-    throw Error(ErrorCode::usage, "spectrum",
-                "the film's sensor is not spectral: it has channels instead of wavelengths");
+    refuse_argument("spectrum", "the film's sensor is not spectral: it has channels instead of wavelengths");
   if (x < 0 || y < 0 || x >= image.width || y >= image.height)
-    throw Error(ErrorCode::usage, "spectrum",
-                fmt::format("no such pixel (got {}, {}, allowed up to {}, {})", x, y, image.width - 1,
-                            image.height - 1));
+    refuse_argument("spectrum", "no such pixel (got {}, {}, allowed up to {}, {})", x, y, image.width - 1,
+                    image.height - 1);
   const auto bands = static_cast<py::ssize_t>(band_centers_nm(image).size());
   return film.array()[py::make_tuple(y, x, py::slice(0, bands, 1))];
 }
@@ -79,23 +77,18 @@ ExposedFilm exposed(const Image& film) {
   return {film, *std::move(sensor)};
 }
 
-// The picture of a film's expected exposure, without sensor noise, on the sRGB display. Throws Error{usage}
-// if no display can show it, and InvalidInput if the film does not describe its sensor.
-Image exposure_picture(const FilmHandle& film) {
-  const ExposedFilm source = exposed(film.image());
-  return display_picture(source.sensor, develop(source, 0).calibrated);
+Image display_picture(const FilmSensor& sensor, const Image& calibrated) {
+  require_display(sensor);
+  const Image planes = display_planes(sensor, calibrated);
+  return (*sensor.display)(planes, 1 / display_white(sensor, planes)).image;
 }
 
-py::object picture(const FilmHandle& film) {
-  const Image image = exposure_picture(film);
-  std::vector<std::string> names;
-  for (const ImageChannel& channel : image.channels) names.push_back(channel.name);
-  return planes_of(image, names);
-}
-
-py::object png(const FilmHandle& film) {
+// Result of `make` for the sensor of a film and its expected exposure, without sensor noise. Throws
+// InvalidInput if the film does not describe its sensor.
+template <typename Make>
+auto of_exposure(const FilmHandle& film, Make make) {
   const ExposedFilm source = exposed(film.image());
-  return png_of(source.sensor, develop(source, 0).calibrated);
+  return make(source.sensor, develop(source, 0).calibrated);
 }
 
 // Writes the format of the extension: the sums, the image or the display picture.
@@ -105,7 +98,8 @@ void write_film(const FilmHandle& film, const fs::path& path) {
   if (is_part && !film.part())
     throw Error(ErrorCode::usage, path.string(),
                 "the film was read from an image: only a film with its exact sums can be written as a part");
-  if (!is_part && extension_of(path) != ".exr") return write_picture(path, exposure_picture(film));
+  if (!is_part && extension_of(path) != ".exr")
+    return write_picture(path, of_exposure(film, display_picture));
   const Image* const image = is_part ? nullptr : &film.image();
   const GilReleased released;
   if (is_part)
@@ -171,20 +165,15 @@ py::object stats(const FilmHandle& film) {
   const RenderStats& stats = film.part()->result.stats;
   py::dict all;
   const bool ran_here = stats.wall_s > 0;  // parts and merged films record no cost
-  for (const char* cost : {"wall_s", "cpu_s", "threads"}) all[cost] = py::none();
-  if (ran_here) {
-    all["wall_s"] = stats.wall_s;
-    all["cpu_s"] = stats.cpu_s;
-    all["threads"] = stats.threads;
-  }
-  all["samples_per_pixel"] = py::none();
-  if (film.part()->areas.empty()) all["samples_per_pixel"] = stats.samples_per_pixel;
+  all["wall_s"] = value_if(ran_here, stats.wall_s);
+  all["cpu_s"] = value_if(ran_here, stats.cpu_s);
+  all["threads"] = value_if(ran_here, stats.threads);
+  all["samples_per_pixel"] = value_if(film.part()->areas.empty(), stats.samples_per_pixel);
   all["paths"] = stats.paths;
   all["rays"] = stats.rays;
   all["relative_error"] = finite_or_none(stats.error.median);
   all["frame_mean_error"] = finite_or_none(stats.error.frame_mean);
-  all["half_noise_samples"] = py::none();
-  if (stats.error.few_samples) all["half_noise_samples"] = *stats.error.few_samples;
+  all["half_noise_samples"] = stats.error.few_samples;
   all["nonfinite_samples"] = stats.nonfinite_samples;
   return all;
 }
@@ -296,20 +285,22 @@ void add_film(py::module_& module) {
       .def_property_readonly(
           "height", [](const FilmHandle& f) { return f.image().height; }, "The film's rows of pixels.")
       .def("__repr__", repr_of_film)
-      .def("picture", picture,
-           "Returns the picture of the film on an sRGB display: rows, columns, and R, G, B or grey, as code "
-           "values in [0, 1]. Raises UsageError for a film that no display can show.")
-      .def("_repr_png_", png);
+      .def(
+          "picture", [](const FilmHandle& f) { return of_exposure(f, picture_array); },
+          "Returns the picture of the film on an sRGB display: rows, columns, and R, G, B or grey, as code "
+          "values in [0, 1]. Raises UsageError for a film that no display can show.")
+      .def("_repr_png_", [](const FilmHandle& f) { return of_exposure(f, png_of); });
   module.def("merge", merge_films, py::arg("films"), py::kw_only(), py::arg("partial") = false,
              "Merges films of one render, or the .abbepart files at paths, to the film that a single render "
              "of all their samples would give, bit for bit. Raises InputError for films of different "
              "renders, for samples that two films share, and, unless `partial`, for missing samples.");
 }
 
-Image display_picture(const FilmSensor& sensor, const Image& calibrated) {
-  require_display(sensor);
-  const Image planes = display_planes(sensor, calibrated);
-  return (*sensor.display)(planes, 1 / display_white(sensor, planes)).image;
+py::object picture_array(const FilmSensor& sensor, const Image& calibrated) {
+  const Image picture = display_picture(sensor, calibrated);
+  std::vector<std::string> names;
+  for (const ImageChannel& channel : picture.channels) names.push_back(channel.name);
+  return planes_of(picture, names);
 }
 
 py::object png_of(const FilmSensor& sensor, const Image& calibrated) {

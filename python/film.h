@@ -47,13 +47,12 @@ class FilmHandle {
 /// if the image lacks one of them or `names` is empty. Requires the GIL.
 [[nodiscard]] pybind11::object planes_of(const Image& image, const std::vector<std::string>& names);
 
-/// The picture of a sensor's planes `calibrated` (`DevelopedFilm`) on the sRGB display of `abbe render`:
-/// channels R, G and B, or one of grey, as code values in [0, 1]. Throws Error{usage} if no display can show
-/// it.
-[[nodiscard]] Image display_picture(const FilmSensor& sensor, const Image& calibrated);
+/// The picture of a sensor's planes `calibrated` (`DevelopedFilm`) on the sRGB display of `abbe render`, as
+/// an array: channels R, G and B, or one of grey, as code values in [0, 1]. Throws Error{usage} if no display
+/// can show it.
+[[nodiscard]] pybind11::object picture_array(const FilmSensor& sensor, const Image& calibrated);
 
-/// The picture as bytes of a PNG, which Jupyter requests. None if no display can show it; Jupyter then shows
-/// text.
+/// The picture as bytes of a PNG for Jupyter; None if no display can show it.
 [[nodiscard]] pybind11::object png_of(const FilmSensor& sensor, const Image& calibrated);
 
 }  // namespace abbe::python

@@ -7,6 +7,7 @@
 #include "io/diagnostics.h"
 #include "io/json.h"
 #include "io/json_values.h"
+#include "python/arguments.h"
 #include "python/numbers.h"
 
 namespace abbe::python {
@@ -55,7 +56,9 @@ class Converter {
     if (py::isinstance<py::dict>(object)) return members_of(py::reinterpret_borrow<py::dict>(object));
     if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object))
       return elements_of(py::reinterpret_borrow<py::sequence>(object));
-    if (is_time(object)) refuse_kind(py::str(object.attr("dtype")));
+    // Dates and time spans, which numpy converts to plain numbers if their unit is the nanosecond.
+    if (const char kind = numpy_kind(object); kind == 'm' || kind == 'M')
+      refuse_kind(py::str(object.attr("dtype")));
     for (const char* method : {"tolist", "__fspath__"})
       if (py::hasattr(object, method)) return converted(object, object.attr(method)());
     refuse_kind(type_name(object));
@@ -149,12 +152,6 @@ struct ToPython {
 };
 
 }  // namespace
-
-std::string escaped(const std::string& key) {
-  std::string all;
-  for (const char c : key) all += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return all;
-}
 
 JsonValue to_json(const py::handle& object, const std::string& pointer) {
   return {Converter(pointer).value_of(object), {}, 0};

@@ -18,9 +18,6 @@ namespace abbe::python {
 /// `pointer` is that of the object itself. Requires the GIL.
 [[nodiscard]] JsonValue to_json(const pybind11::handle& object, const std::string& pointer = "");
 
-/// A key escaped for a JSON pointer: "~0" for "~", "~1" for "/" [RFC6901].
-[[nodiscard]] std::string escaped(const std::string& key);
-
 /// Converts a JSON value to a Python object. Whole numbers up to 2^53 - 1 in magnitude become int, except -0.
 [[nodiscard]] pybind11::object to_python(const JsonValue& value);
 

@@ -8,6 +8,7 @@
 #include "materials/index/library.h"
 #include "materials/interface/coating.h"
 #include "materials/interface/prism.h"
+#include "python/arguments.h"
 #include "python/errors.h"
 #include "python/gil.h"
 #include "python/module.h"
@@ -56,8 +57,8 @@ py::dict material(const std::string& name) {
   result["low_nm"] = named.index.low_nm();
   result["high_nm"] = named.index.high_nm();
   const auto& k = named.index.k_range();
-  result["k_low_nm"] = k ? py::object(py::float_(k->low_nm)) : py::none();
-  result["k_high_nm"] = k ? py::object(py::float_(k->high_nm)) : py::none();
+  result["k_low_nm"] = k ? std::optional(k->low_nm) : std::nullopt;
+  result["k_high_nm"] = k ? std::optional(k->high_nm) : std::nullopt;
   return result;
 }
 
@@ -66,9 +67,8 @@ Coating coating_of(const std::vector<std::pair<std::string, Real>>& layers, cons
   Coating coating;
   for (const auto& [name, thickness_nm] : layers) {
     if (!kFilmThickness.contains(thickness_nm) || coating.layers.size() == Coating::kMaxMaterials)
-      throw Error(ErrorCode::usage, "coating",
-                  fmt::format("got {} nm of \"{}\", allowed up to {} layers of {} nm", thickness_nm.value,
-                              name, Coating::kMaxMaterials, kFilmThickness.text()));
+      refuse_argument("coating", "got {} nm of \"{}\", allowed up to {} layers of {} nm", thickness_nm.value,
+                      name, Coating::kMaxMaterials, kFilmThickness.text());
     NamedIndex named = load_surface_index(name, wavelengths_nm);
     coating.layers.push_back({static_cast<std::uint32_t>(coating.materials.size()), thickness_nm});
     coating.materials.push_back({std::move(named.name), std::move(named.index)});
@@ -82,8 +82,7 @@ py::tuple reflectance(const std::string& name, const Numbers& wavelengths_nm, co
   const NamedIndex named = load_surface_index(name, wavelengths_nm);
   const Coating coating = coating_of(layers, wavelengths_nm);
   for (const double angle : span_of(angles_deg))
-    if (!(angle >= 0 && angle <= 90))
-      throw Error(ErrorCode::usage, "angle_deg", fmt::format("got {}, allowed [0, 90]", angle));
+    if (!(angle >= 0 && angle <= 90)) refuse_argument("angle_deg", "got {}, allowed [0, 90]", angle);
   const auto [nm, angle] = broadcast(wavelengths_nm, angles_deg, "wavelengths_nm", "angle_deg");
   Numbers rs = empty_like(nm);
   Numbers rp = empty_like(nm);
@@ -106,10 +105,9 @@ py::tuple reflectance(const std::string& name, const Numbers& wavelengths_nm, co
 py::object prism_deviation(const std::string& name, const Numbers& wavelengths_nm, Real apex_deg,
                            std::optional<Real> incidence_deg) {
   if (!(apex_deg > 0 && apex_deg < 180))
-    throw Error(ErrorCode::usage, "apex_deg", fmt::format("got {}, allowed (0, 180)", apex_deg.value));
+    refuse_argument("apex_deg", "got {}, allowed (0, 180)", apex_deg.value);
   if (incidence_deg && !(std::abs(*incidence_deg) < 90))
-    throw Error(ErrorCode::usage, "incidence_deg",
-                fmt::format("got {}, allowed (-90, 90)", incidence_deg->value));
+    refuse_argument("incidence_deg", "got {}, allowed (-90, 90)", incidence_deg->value);
   const NamedIndex named = load_surface_index(name, wavelengths_nm);
   return map(wavelengths_nm, [&](double nm) {
     if (named.index.k(nm) > kLargestGlassK) return kNan;

@@ -94,10 +94,9 @@ py::dict dict_of(const MeterMeasurement& measured) {
   result["integrator"] = integrator_name(measured.integrator);
   result["seed"] = measured.seed;
   result["samples"] = measured.stats.samples_per_pixel;
-  result["half_noise_samples"] = py::none();
-  if (measured.stats.error.few_samples) result["half_noise_samples"] = *measured.stats.error.few_samples;
-  result["hidden_noise"] = py::none();
-  if (measured.stats.error.hidden_noise > 0) result["hidden_noise"] = measured.stats.error.hidden_noise;
+  const RelativeError& error = measured.stats.error;
+  result["half_noise_samples"] = error.few_samples;
+  result["hidden_noise"] = value_if(error.hidden_noise > 0, error.hidden_noise);
   return result;
 }
 
@@ -117,8 +116,7 @@ std::vector<std::string> names_of(const py::object& only) {
   if (only.is_none()) return {};
   if (py::isinstance<py::str>(only)) return {encoded(only)};
   auto names = argument<std::vector<std::string>>(only, "only", "the name of a meter or a list of them");
-  if (names.empty())
-    throw Error(ErrorCode::usage, "only", "names no meter (got [], allowed one or more, or None for all)");
+  if (names.empty()) refuse_argument("only", "names no meter (got [], allowed one or more, or None for all)");
   return names;
 }
 

@@ -11,14 +11,8 @@ PYBIND11_MODULE(_abbe, module) {
   module.doc() = "Abbe, a spectral renderer validated against measured colour science.";
   module.attr("__version__") = ABBE_VERSION;
   module.def("_set_data_directory", abbe::set_data_directory);
-  abbe::python::add_errors(module);
-  abbe::python::add_scene(module);
-  abbe::python::add_film(module);
-  abbe::python::add_render(module);
-  abbe::python::add_meter(module);
-  abbe::python::add_develop(module);
-  abbe::python::add_compare(module);
-  abbe::python::add_calibrate(module);
-  abbe::python::add_materials(module);
-  abbe::python::add_curves(module);
+  using namespace abbe::python;
+  for (const auto add : {add_errors, add_scene, add_film, add_render, add_meter, add_develop, add_compare,
+                         add_calibrate, add_materials, add_curves})
+    add(module);
 }

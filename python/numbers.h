@@ -56,18 +56,10 @@ struct Whole {
   operator T() const { return value; }
 };
 
-/// Code of numpy for the kind of data in an object, such as 'm' for time spans; 0 for objects that are not
-/// numpy's.
+/// Numpy's code for the kind of data in an object, such as 'm' for time spans; 0 for other objects.
 [[nodiscard]] inline char numpy_kind(const pybind11::handle& object) {
   const pybind11::object type = pybind11::getattr(object, "dtype", pybind11::none());
   return pybind11::isinstance<pybind11::dtype>(type) ? type.cast<pybind11::dtype>().kind() : '\0';
-}
-
-/// True if an object holds numpy dates or time spans. With nanoseconds as the unit, numpy would convert them
-/// to plain numbers.
-[[nodiscard]] inline bool is_time(const pybind11::handle& object) {
-  const char kind = numpy_kind(object);
-  return kind == 'm' || kind == 'M';
 }
 
 /// Throws Error{usage} for numpy data of one of the `kinds`, a string of numpy's codes (`numpy_kind`).
@@ -157,10 +149,14 @@ namespace abbe::python {
   return {numbers.data(), static_cast<std::size_t>(numbers.size())};
 }
 
+/// The value in Python if it is known, else None.
+template <typename T>
+[[nodiscard]] pybind11::object value_if(bool known, const T& value) {
+  return known ? pybind11::cast(value) : pybind11::none();
+}
 /// The number, or None if it is not finite, such as an error that is not measured yet.
 [[nodiscard]] inline pybind11::object finite_or_none(double value) {
-  return std::isfinite(value) ? pybind11::object(pybind11::float_(value))
-                              : pybind11::object(pybind11::none());
+  return value_if(std::isfinite(value), value);
 }
 
 /// A new array of the same shape, uninitialised.

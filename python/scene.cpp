@@ -28,10 +28,6 @@ namespace fs = std::filesystem;
 // Name of a scene without a file in messages.
 constexpr const char* kDict = "dict";
 
-const schema::Fields& scene_fields() {
-  return schema::fields_of<spec::Scene>();
-}
-
 // Keywords over a file act as `--set` does in the command, so that films record the same hash.
 std::vector<Override> overrides_of(const py::dict& keywords) {
   const JsonValue all = to_json(keywords);
@@ -58,7 +54,7 @@ std::string class_text() {
       "file; files that it names are relative to `folder`, by default the current one, which only a dict may "
       "have. Keywords are keys at the top level of the scene and replace those of the file or dict. Invalid "
       "input raises abbe.SceneError or abbe.InputError, whose `diagnostics` list all errors.\n\nKeywords:\n";
-  const schema::Fields* const root = &scene_fields();
+  const schema::Fields* const root = &schema::fields_of<spec::Scene>();
   for (const schema::Key& key : schema::keys_of({&root, 1}))
     text += fmt::format("  {}: {} ({})\n", key.name, key.meaning(), key.allowed());
   return text + "\nabbe.help(\"camera\") describes the values of a key.";
@@ -78,8 +74,8 @@ SceneSource source_of(const py::object& source, const py::object& folder, const 
     return {kDict, text_of(source, keywords),
             folder.is_none() ? fs::path() : argument<fs::path>(folder, "folder", "a path")};
   if (!folder.is_none())
-    throw Error(ErrorCode::usage, "folder",
-                "applies only to files that a dict names; those of a scene file are relative to that file");
+    refuse_argument(
+        "folder", "applies only to files that a dict names; those of a scene file are relative to that file");
   std::vector<Override> overrides = overrides_of(keywords);
   return {argument<fs::path>(source, "source", "a path or a dict"), {}, {}, std::move(overrides)};
 }
@@ -147,7 +143,8 @@ void add_scene(py::module_& module) {
           "The seed of the random numbers, unless the arguments of `render` replace it.")
       .def("__repr__", repr_of_scene);
   module.def(
-      "help", [](const std::string& key) { return schema::help(scene_fields(), key); }, py::arg("key") = "",
+      "help", [](const std::string& key) { return schema::help(schema::fields_of<spec::Scene>(), key); },
+      py::arg("key") = "",
       "Returns the meaning, range and default of a key of scenes, as `abbe help scene KEY` prints them.");
 }
 

@@ -39,27 +39,23 @@ class SceneHandle {
   /// `load_scene` and `accepted`. Requires the GIL, which it releases while it loads.
   SceneHandle(const pybind11::object& source, const pybind11::object& folder, const pybind11::dict& keywords);
 
-  /// The scene. Its white and its integrator may be unresolved until `with_white` returns for the first time.
-  /// Requires the GIL.
+  /// The scene, perhaps before `with_white` has resolved it. Requires the GIL.
   [[nodiscard]] const abbe::Scene& scene() const { return scene_; }
   /// The scene with its white and its integrator. The first call resolves them by pilot rays on `threads`
   /// threads, or one per processor for 0; other threads wait meanwhile. Throws as `resolve_white`.
   /// The caller must have released the GIL by `GilReleased`: the function waits for other threads, and
   /// acquires the GIL itself to change the scene.
   [[nodiscard]] const abbe::Scene& with_white(int threads);
-  /// Guiding data that the pilots of `with_white` trained; nullptr before its first call returns, or if it
-  /// trained none.
+  /// Guiding data that the pilots of `with_white` trained; nullptr if there are none.
   [[nodiscard]] const std::shared_ptr<const GuidingData>& guiding_data() const { return guiding_data_; }
 
   /// The scene as described, with defaults; later resolutions do not change it.
   [[nodiscard]] const spec::Scene& scene_spec() const { return scene_spec_; }
-  /// Name recorded in films and used in messages: the path as the user gave it, or "dict".
+  /// Name in films and messages: the path as the user gave it, or "dict".
   [[nodiscard]] const std::filesystem::path& name() const { return name_; }
-  /// Source from which the scene can be read again after a change of the current directory: its path or
-  /// folder is absolute.
+  /// Source with an absolute path or folder, from which the scene can be read again.
   [[nodiscard]] const SceneSource& source() const { return source_; }
-  /// The files that were read, and the memory that is reserved for the scene. A render copies it to reserve
-  /// its own.
+  /// The files that were read, and the memory that is reserved for the scene.
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
 
  private:
