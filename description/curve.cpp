@@ -55,7 +55,7 @@ static Fields fields(Tag<Scaled>) {
                    field("scale", &Scaled::scale, kValue, "Factor applied to the curve `of`.")});
 }
 
-Fields fields(Tag<CurveFormula>) {
+static Fields fields(Tag<CurveFormula>) {
   return describe(
       "curve_formula", "A curve given by a formula.",
       {one_of(&CurveFormula::of, under<TableCurve>("table"), inlined_by<Band>("band"),
@@ -103,24 +103,7 @@ TableRole role_in(const std::vector<spec::Curve>& factors, TableRole product) {
 struct UnitWarnings {
   bool has_unit = false;
   std::vector<std::pair<SourcePosition, std::string>> warnings;
-
-  void report(Diagnostics& diagnostics) const {
-    if (has_unit) return;
-    for (const auto& [where, warning] : warnings) diagnostics.error_if_strict(where, warning);
-  }
 };
-
-std::optional<std::string> unit_error(const NamedCurve& table, const CurveUse& use, TableRole role) {
-  if (role == TableRole::scaled) return std::nullopt;
-  const std::string remedy = fmt::format("; {{\"scale\": S, \"of\": \"{}\"}} converts", table.name);
-  return unit_fault(table.name, table.unit, use.unit, remedy,
-                    role == TableRole::factor ? UnitRole::factor : UnitRole::whole);
-}
-std::optional<std::string> unit_warning(const NamedCurve& table, const CurveUse& use, TableRole role) {
-  if (role == TableRole::scaled) return std::nullopt;
-  if (use.unit == CurveUnit::unknown_response) return unknown_response(table.name, table.unit);
-  return relative_power(table.name, table.unit, use.unit);
-}
 
 /// Builds each form of a curve, without checking its values.
 struct CurveBuilder {
@@ -141,13 +124,19 @@ struct CurveBuilder {
   }
   // True if the unit of the table is allowed. Reports the error or warning.
   [[nodiscard]] bool fits(const NamedCurve& table) const {
-    const auto fault = unit_error(table, use, role);
-    if (fault)
-      context.diagnostics.error(where, *fault);
-    else if (auto warning = unit_warning(table, use, role))
-      warn(*std::move(warning));
     if (product_warnings != nullptr && declares_power(table.unit)) product_warnings->has_unit = true;
-    return !fault;
+    if (role == TableRole::scaled) return true;
+    const std::string remedy = fmt::format("; {{\"scale\": S, \"of\": \"{}\"}} converts", table.name);
+    const auto fault = unit_fault(table.name, table.unit, use.unit, remedy,
+                                  role == TableRole::factor ? UnitRole::factor : UnitRole::whole);
+    if (fault) {
+      context.diagnostics.error(where, *fault);
+      return false;
+    }
+    auto warning = use.unit == CurveUnit::unknown_response ? unknown_response(table.name, table.unit)
+                                                           : relative_power(table.name, table.unit, use.unit);
+    if (warning) warn(*std::move(warning));
+    return true;
   }
   // Reports a warning now, or when all factors are known if another factor may resolve it.
   void warn(std::string warning) const {
@@ -222,7 +211,8 @@ struct CurveBuilder {
     CurveBuilder outermost = *this;
     if (product_warnings == nullptr) outermost.product_warnings = &warnings;
     auto all = outermost.combined(factors.value, role_in(factors.value, role), product);
-    warnings.report(context.diagnostics);
+    if (!warnings.has_unit)
+      for (const auto& [at, warning] : warnings.warnings) context.diagnostics.error_if_strict(at, warning);
     return all;
   }
   std::optional<Curve> operator()(const spec::Sum& terms) const {

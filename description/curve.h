@@ -63,8 +63,7 @@ struct CurveFormula {
 /// A function of wavelength: a constant, the name of a table, or a formula.
 struct Curve : schema::Located<std::variant<double, std::string, CurveFormula>> {};
 
-// Key table and forms in which scene files write these types.
-[[nodiscard]] schema::Fields fields(schema::Tag<CurveFormula>);
+// Forms in which scene files write these types.
 [[nodiscard]] schema::ValueType value_type(schema::Tag<Curve::Wrapped>);
 [[nodiscard]] schema::ValueType value_type(schema::Tag<Lines::Wrapped>);
 // Allowed temperatures of `Blackbody` and `Daylight`.
@@ -75,8 +74,8 @@ inline constexpr Range kDaylight = Range{4000, 25000}.in("K");
 
 namespace abbe::description {
 
-/// Builds the curve over wavelength [nm], with values in the unit of `use`. Reports errors to
-/// `context.diagnostics` and returns nothing after one. Errors in addition to those of the key table:
+/// Builds the curve over wavelength [nm], with values in the unit of `use`; nothing after an error. Reports
+/// to `context.diagnostics`, in addition to the errors of the key table:
 /// - wavelengths that do not ascend, an empty band, an unknown name, a value that `use` does not allow;
 /// - a table without data at wavelengths that `context.coverage` needs;
 /// - a table in another unit than the use needs, such as 1/cm instead of 1/m, or percent instead of a

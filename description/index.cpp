@@ -154,7 +154,7 @@ Imath::V2f widths(const spec::Facets& facets) {
 /// A coating under construction, with the first spec of each of its materials.
 struct Films {
   Coating coating;
-  std::vector<const spec::Ior*> specs;  // One for each material.
+  std::vector<const spec::Ior*> specs;
 };
 
 // True if neither index is a table, or both are tables with the same data. The names of tables do not
@@ -199,11 +199,9 @@ void add_layers(const std::vector<spec::LayerEntry>& entries, Films& films, Load
         layers.push_back({*material, layer.thickness_nm});
     }
     const std::size_t last = layers.size();
-    if (first + (last - first) * static_cast<std::size_t>(repeats) > Coating::kMaxLayers) {
-      context.diagnostics.error(entry.where,
-                                fmt::format("too many layers (allowed {})", Coating::kMaxLayers));
-      return;
-    }
+    if (first + (last - first) * static_cast<std::size_t>(repeats) > Coating::kMaxLayers)
+      return context.diagnostics.error(entry.where,
+                                       fmt::format("too many layers (allowed {})", Coating::kMaxLayers));
     for (; repeats > 1; --repeats)
       for (std::size_t i = first; i < last; ++i) layers.push_back(layers[i]);
   }
@@ -213,9 +211,8 @@ void add_layers(const std::vector<spec::LayerEntry>& entries, Films& films, Load
 
 std::optional<Ior> build(const spec::Ior& spec, LoadContext& context) {
   if (const auto* n = std::get_if<double>(&spec.value)) return constant_ior(*n, 0);
-  if (const auto* constant = std::get_if<spec::ConstantIor>(&spec.value))
-    return constant_ior(constant->n, constant->k);
-  if (const auto* constant = std::get_if<spec::MetalIor>(&spec.value))
+  const auto* metal = std::get_if<spec::MetalIor>(&spec.value);
+  if (const auto* constant = metal ? metal : std::get_if<spec::ConstantIor>(&spec.value))
     return constant_ior(constant->n, constant->k);
   if (const auto* table = std::get_if<spec::TableIor>(&spec.value)) return table_ior(*table, context);
   const auto name = context.table(std::get<std::string>(spec.value), spec.where);

@@ -14,10 +14,10 @@
 // relative to air. Functions `build` report errors to `context.diagnostics`.
 namespace abbe::spec {
 
-/// The index n + ik at all wavelengths.
+/// The index n + ik at all wavelengths, with n in (0, 100] and k in [0, 100].
 struct ConstantIor {
-  double n = 1;  ///< Refractive index, in (0, 100].
-  double k = 0;  ///< Extinction coefficient in [0, 100]; positive values absorb.
+  double n = 1;
+  double k = 0;
 };
 struct MetalIor : ConstantIor {};  ///< n may be 0: the perfect mirror.
 /// Samples of n and k, linearly interpolated, constant outside their range.
@@ -58,13 +58,12 @@ struct LayerEntry : schema::Located<std::variant<Layer, LayerGroup>> {};
 
 /// Microfacet roughness alpha: one value, or one along the surface coordinate u and one across it.
 using Alpha = std::variant<double, std::array<double, 2>>;
-/// A microfacet distribution. `distribution` is the shape of the distribution of slopes.
+/// A microfacet distribution.
 struct Facets {
   Alpha alpha;
   FacetShape distribution = FacetShape::ggx;
 };
-/// A roughness: alpha of GGX, two alphas along u and across it, or a distribution with its alphas. All
-/// alphas are in [0, 1].
+/// A roughness: alpha of GGX, two alphas, or a distribution with its alphas. All alphas are in [0, 1].
 struct Roughness : schema::Located<std::variant<double, std::array<double, 2>, Facets>> {};
 [[nodiscard]] schema::ValueType value_type(schema::Tag<Roughness::Wrapped>);
 
@@ -77,10 +76,10 @@ struct Ior {
   std::string name;
   RefractiveIndex index;
 };
-/// Builds a refractive index. Returns nothing after an error, such as an unknown name.
+/// Builds a refractive index; nothing after an error, such as an unknown name.
 [[nodiscard]] std::optional<Ior> build(const spec::Ior& ior, LoadContext& context);
 /// Builds a refractive index whose k follows from the absorption coefficient alpha: k = alpha lambda/(4 pi).
-/// Returns nothing after an error, such as an absorption coefficient with an index that already has a k.
+/// Reports an absorption coefficient with an index that already has a k.
 [[nodiscard]] std::optional<Ior> build(const spec::TintedIor& ior, LoadContext& context);
 /// Builds a coating, with its layers from the outside inwards; empty for an empty list. Reports more than 256
 /// layers or 16 materials, and the errors of indices; layers with an error are missing in the result.

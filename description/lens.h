@@ -20,8 +20,8 @@ using lens::kMaxMm;
 inline constexpr Range kPositiveMm{0, kMaxMm, true, false, "mm"};  ///< Allowed lengths above 0: (0, kMaxMm].
 inline constexpr Range kFieldAngle = Range{-120, 120}.in("degrees");
 
-/// A glass given by its index n_d at 587.5618 nm and its Abbe number V_d = (n_d - 1)/(n_F - n_C). Its index
-/// is n = A + B/lambda^2 through both.
+/// A glass n = A + B/lambda^2 with the index n_d at 587.5618 nm and the Abbe number V_d = (n_d - 1)/(n_F -
+/// n_C).
 struct ModelGlass {
   double nd = 1.5;
   double vd = 60;
@@ -39,9 +39,8 @@ struct LensSurface {
   double r2 = 0;                   ///< Coefficient of r^2 in the sag [1/mm].
   std::vector<double> asphere;     ///< Coefficients of r^4, r^6, ... r^20 in the sag [mm^-3, mm^-5, ...].
   std::array<double, 2> decenter{0, 0};  ///< Displacement along x and y; later surfaces do not move.
-  /// Tilt about x, then about the tilted y; later surfaces do not move.
-  std::array<double, 2> tilt_deg{0, 0};
-  std::vector<LayerEntry> coating;  ///< Thin films, from the air inwards.
+  std::array<double, 2> tilt_deg{0, 0};  ///< Tilt about x, then about the tilted y, of this surface alone.
+  std::vector<LayerEntry> coating;       ///< Thin films, from the air inwards.
   SourcePosition where;
 };
 
@@ -64,15 +63,12 @@ struct Lens {
   std::string title;
   std::string source;                 ///< Source of the data.
   std::vector<LensSurface> surfaces;  ///< Order in which light passes them; at least one.
-  /// If std::monostate, the clear aperture of the stop limits the beam.
-  std::variant<std::monostate, PupilDiameter, FNumber> aperture;
-  /// Fields along y. If std::monostate, the axis alone.
+  std::variant<std::monostate, PupilDiameter, FNumber> aperture;  ///< By default the stop limits the beam.
+  /// Fields along y; by default the axis alone.
   std::variant<std::monostate, FieldAngles, ObjectHeights, ImageHeights> fields;
-  /// Distance from the object to the first surface; infinite if absent.
-  std::optional<double> object_distance;
-  /// Wavelengths at which the lens is evaluated, at least one.
-  std::vector<double> wavelengths_nm{486.1327, 587.5618, 656.2725};
-  /// The one of `wavelengths_nm` at which stop and focus are set. If absent, the element number size/2.
+  std::optional<double> object_distance;  ///< To the first surface; infinite if absent.
+  std::vector<double> wavelengths_nm{486.1327, 587.5618, 656.2725};  ///< At least one.
+  /// The one of `wavelengths_nm` at which stop and focus are set; by default element number size/2.
   std::optional<schema::Located<double>> primary_nm;
   LensFocus focus = LensFocus::given;
   double defocus = 0;  ///< Displacement of the image away from the lens.
@@ -87,12 +83,10 @@ namespace abbe::description {
 
 /// Builds the lens system, in mm. Reports errors to `context.diagnostics` and returns nothing if they have
 /// any:
-/// - a stop that is missing, or a second stop;
-/// - unknown glasses, and glass in front of the image;
+/// - other than one stop, unknown glasses, and glass in front of the image;
 /// - clear apertures larger than their surface, and surfaces that cross within their clear apertures;
 /// - a stop that cannot open to the aperture, and an aperture to whose rim no ray can be traced;
-/// - fields that the kind of object or an infinite pupil excludes;
-/// - a focus that an afocal lens does not have;
+/// - fields that the kind of object or an infinite pupil excludes, and the focus of an afocal lens;
 /// - a primary wavelength that is not one of the wavelengths.
 /// Warns of wavelengths at which a glass has no data, and of an axial beam that is partly cut off.
 /// `wavelengths_nm`, unless empty, replace the wavelengths of the prescription, with the element number

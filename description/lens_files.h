@@ -22,10 +22,8 @@ namespace abbe {
 /// File names are relative to the working directory. Errors are reported at their position in the file, and
 /// an unknown name at `where`. Returns nothing if `diagnostics` then have an error, also an earlier one. A
 /// lens without a title gets its file name. `inputs`, if given, records every file that is read.
-/// `wavelengths_nm` [nm], unless empty, replace the lens's own, with the element number size/2 as the
-/// primary. Stop and image are still set at the lens's own primary wavelength. Throws Error{input} if the
-/// folder of the shipped tables does not exist, and Error{resource} if the memory limit of `inputs` is
-/// exceeded.
+/// `wavelengths_nm` are those of `description::build`. Throws Error{input} if the folder of the shipped
+/// tables does not exist, and Error{resource} if the memory limit of `inputs` is exceeded.
 [[nodiscard]] std::optional<lens::System> load_lens(const std::string& name, Diagnostics& diagnostics,
                                                     Inputs* inputs = nullptr,
                                                     const SourcePosition& where = {},
@@ -49,13 +47,11 @@ struct Line {
   [[nodiscard]] const std::string& keyword() const { return words.front().text; }
   /// Position of word number `word`, counted from 0; of the last word if the line has fewer words.
   [[nodiscard]] SourcePosition where(std::size_t word = 0) const;
-  /// A word of the line, where the keyword is word 0. Nothing if the line has fewer words.
+  /// A word of the line, counted from 0 for the keyword. Nothing if the line has fewer words.
   [[nodiscard]] std::optional<std::string> text(std::size_t word) const;
-  /// A word as a number. Reports a word that is not a number or is missing, with ErrorCode::input, and
-  /// returns nothing.
+  /// A word as a number, or as one in (0, 1e9]. Reports any other or a missing word, with ErrorCode::input,
+  /// and returns nothing.
   [[nodiscard]] std::optional<double> number(std::size_t word, Diagnostics& diagnostics) const;
-  /// A word as a number in (0, 1e9]. Reports any other or a missing word, with ErrorCode::input, and returns
-  /// nothing.
   [[nodiscard]] std::optional<double> positive(std::size_t word, Diagnostics& diagnostics) const;
   /// All words from number `first` on as numbers, up to the first that is not a number. Reports nothing.
   [[nodiscard]] std::vector<double> numbers(std::size_t first) const;

@@ -22,13 +22,8 @@
 namespace abbe {
 namespace {
 
-struct MaterialPath {
-  std::filesystem::path path;
-  std::string name;  // Empty if not given.
-};
-
-// Splits "FILE" or "FILE:NAME".
-MaterialPath split_name(const std::string& words) {
+// Splits "FILE" or "FILE:NAME" into file and name, which is empty if it is not given.
+std::pair<std::filesystem::path, std::string> split_name(const std::string& words) {
   const std::size_t colon = words.rfind(".json:");
   if (colon == std::string::npos) return {words, ""};
   const std::size_t end = colon + std::string_view(".json").size();
@@ -192,9 +187,9 @@ std::string scene_guide(const std::string& guide) {
 
 std::optional<Material> load_material(const std::string& words, Diagnostics& diagnostics, Inputs* inputs) {
   const bool in_place = words.starts_with('{');
-  const MaterialPath material_path = in_place ? MaterialPath{} : split_name(words);
+  const auto [path, name] = split_name(in_place ? "" : words);
   const auto source = in_place ? std::make_shared<const SourceText>(SourceText{"MATERIAL", words})
-                               : read_text(material_path.path, diagnostics);
+                               : read_text(path, diagnostics);
   if (!source) return std::nullopt;
   std::optional<JsonValue> root = parse_json(source, diagnostics);
   if (!root) return std::nullopt;
@@ -202,14 +197,14 @@ std::optional<Material> load_material(const std::string& words, Diagnostics& dia
   if (const JsonValue* units = root->find("units"))
     (void)schema::read(*units, spec::units(), &unit, diagnostics);
   const JsonValue materials = materials_of(*std::move(root));
-  if (inputs && !in_place) inputs->add_file(material_path.path);
-  description::LoadContext context{diagnostics, material_path.path.parent_path(), inputs, spec::metres(unit)};
+  if (inputs && !in_place) inputs->add_file(path);
+  description::LoadContext context{diagnostics, path.parent_path(), inputs, spec::metres(unit)};
   Scene scene{};
   spec::Materials spec;
   (void)schema::read(materials, spec::materials(), &spec, diagnostics);
   description::build_materials(spec, context, scene);
   if (diagnostics.has_errors()) return std::nullopt;
-  const Material* material = chosen(scene.materials, material_path.name, materials.where, diagnostics);
+  const Material* material = chosen(scene.materials, name, materials.where, diagnostics);
   return material ? std::optional(*material) : std::nullopt;
 }
 

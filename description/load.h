@@ -23,8 +23,8 @@ namespace abbe {
 
 /// Reads, checks and builds a scene, and commits it, so that it can be rendered. Reports every error to
 /// `diagnostics`; returns nothing if they then have one, also an earlier one. Files that the scene names are
-/// relative to its folder. If `path` is `kStandardStream` the text comes from standard input, and files are
-/// relative to the working directory. `overrides` are applied to the JSON in order, before it is checked.
+/// relative to its folder, or to the working directory if `path` is `kStandardStream` for standard input.
+/// `overrides` are applied to the JSON in order, before it is checked.
 /// `inputs`, if given, records every file that the scene and its meshes name, and the memory of images, grids
 /// and meshes. `spec`, if given, receives the parsed description, as far as it was read.
 /// Throws Error{resource} if the memory limit is exceeded, and Error{input} for an unreadable environment
@@ -33,8 +33,8 @@ namespace abbe {
                                               std::span<const Override> overrides, Diagnostics& diagnostics,
                                               Inputs* inputs = nullptr, spec::Scene* spec = nullptr);
 
-/// Builds a scene from the text `source`, with the same results as for a file. Files that it names are
-/// relative to `folder`; if that is empty, to the working directory.
+/// Builds a scene from the text `source`. Files that it names are relative to `folder`; if that is empty, to
+/// the working directory.
 [[nodiscard]] std::optional<Scene> load_scene(const std::shared_ptr<const SourceText>& source,
                                               const std::filesystem::path& folder,
                                               std::span<const Override> overrides, Diagnostics& diagnostics,
@@ -52,8 +52,7 @@ struct MeteredScene {
 [[nodiscard]] std::optional<MeteredScene> load_meters(const std::filesystem::path& path,
                                                       std::span<const Override> overrides,
                                                       Diagnostics& diagnostics, Inputs* inputs = nullptr);
-/// Reads the text `source` for its meters, with the same results as for a file. Files that it names are
-/// relative to `folder`.
+/// Reads the text `source` for its meters. Files that it names are relative to `folder`.
 [[nodiscard]] std::optional<MeteredScene> load_meters(const std::shared_ptr<const SourceText>& source,
                                                       const std::filesystem::path& folder,
                                                       std::span<const Override> overrides,

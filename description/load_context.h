@@ -112,18 +112,15 @@ struct LoadContext {
 /// folder. Throws Error{input} if the folder of the shipped tables does not exist.
 [[nodiscard]] std::vector<std::string> shipped_names(const char* folder);
 
-/// Returns the table for the use `use`, with these effects on a partial table. A table is partial if it ends
-/// within the rendered wavelengths, 300 to 1100 nm, and does not declare `clamp`. A table that declares 0 is
-/// partial only if `use.extrapolates_constant`.
-/// - If `coverage.partial_tables` is set, a partial table is added to it with its position `where`.
-/// - If `coverage.extrapolate`, a partial table is returned extrapolated with its end values.
-/// Any other table is returned unchanged. Reports nothing.
+/// Adds a partial table to `coverage.partial_tables`, if that is set, with its position `where`. Returns it
+/// extrapolated with its end values if `coverage.extrapolate`; other tables unchanged. A table is partial if
+/// it ends within 300 to 1100 nm and declares an error outside, or 0 and `use.extrapolates_constant`.
 [[nodiscard]] NamedCurve with_extrapolation(NamedCurve table, const CurveUse& use,
                                             const SourcePosition& where, TableCoverage& coverage);
 
 /// A context to build a light or sensor again, in which `with_extrapolation` extrapolates partial tables. Its
-/// diagnostics go to `discarded`, which must outlive it, because the first build has reported them. It has
-/// only the folder and the unit of length of `context`: it records no files and counts no memory.
+/// diagnostics go to `discarded`, because the first build has reported them. It has only the folder and the
+/// unit of length of `context`: it records no files and counts no memory.
 [[nodiscard]] LoadContext extrapolating_context(const LoadContext& context, Diagnostics& discarded);
 
 /// Reports each partial table that ends where a channel would record more than a negligible fraction of its

@@ -10,12 +10,11 @@
 
 namespace abbe::spec {
 
-/// Pose at a time, relative to the described pose: a rotation about an axis through the origin, then a
-/// translation.
+/// Pose at a time, relative to the described pose: a rotation, then a translation in scene units.
 struct Keyframe {
-  schema::Located<double> time_s;       ///< Time on the clock of the shutter's `open_s`.
-  std::optional<Rotation> rotate;       ///< No rotation if absent.
-  std::optional<Imath::V3d> translate;  ///< Displacement in scene units; none if absent.
+  schema::Located<double> time_s;  ///< Time on the clock of the shutter's `open_s`.
+  std::optional<Rotation> rotate;
+  std::optional<Imath::V3d> translate;
 };
 /// A rigid motion, given by keyframes. Between two of them the translation is linear and the rotation has a
 /// constant rate about one axis. Nothing moves before the first and after the last.

@@ -19,13 +19,12 @@ struct TextureFile {
   schema::Located<std::string> image;  ///< Name of the image file.
   TextureMapping mapping;
 };
-// Key tables and forms by which scene files are read, written and documented.
+/// Key table by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<TextureFile>);
 /// The spectrum that each named channel of an image multiplies; channel values are linear. The reflectance is
 /// the sum.
 struct Weights : schema::Located<std::vector<schema::Named<Curve>>> {};
-/// True: the channels R, G, B are a colour. They are linear in files of floats, otherwise encoded as the file
-/// declares, or as sRGB. False is an error.
+/// True: the channels R, G, B are a colour, in the encoding of the file. False is an error.
 struct Rgb : schema::Located<bool> {};
 /// A reflectance that an image gives.
 struct Texture {
@@ -50,15 +49,14 @@ struct TextureFile {
 
   /// Reports `what` as an error about this image, at `where`, to `context.diagnostics`.
   void refuse(const std::string& what, ErrorCode code, LoadContext& context) const;
-  /// Name of texel number `i` for messages: "texel (column, row)", both counted from 0 at the top left.
-  /// Texels count row by row.
+  /// Name for messages of texel number `i`, row by row: "texel (column, row)", counted from the top left.
   [[nodiscard]] std::string texel_name(std::size_t i) const;
 };
 
 // Functions report errors to `context.diagnostics`.
 
 /// Reads the image, rotated so that its first row is at the top. Reports a URL and an image that cannot be
-/// read or is too large, and returns nothing.
+/// read or is too large; returns nothing then.
 [[nodiscard]] std::optional<TextureFile> build(const spec::TextureFile& file, LoadContext& context);
 
 /// Values of `channels` of the image, decoded to linear values by `encoding`. The channels of a texel follow

@@ -8,7 +8,7 @@ namespace abbe::spec {
 
 using namespace schema;
 
-Fields fields(Tag<Photons>) {
+static Fields fields(Tag<Photons>) {
   return describe("photons",
                   "Settings of photon tracing for integrators other than `auto`, `light` and `bdpt`. Radii "
                   "shrink from sample to sample.",

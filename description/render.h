@@ -12,16 +12,11 @@ namespace abbe::spec {
 struct Photons {
   /// Photons per sample. If absent, the number of pixels, but at least 16384.
   std::optional<std::uint64_t> per_sample;
-  /// Initial gathering radius [scene units]. If absent, it follows from the size of the scene and the number
-  /// of photons.
+  /// Initial gathering radius [scene units]; by default from the size of the scene and the number of photons.
   std::optional<double> radius;
-  int nearest = 50;  ///< Number of nearest photons in an estimate of the integrator `photon-map`.
-  /// True if `photon-map` gathers one event after the first scattering surface, and only caustic photons
-  /// there.
-  bool final_gather = false;
+  int nearest = 50;           ///< Number of nearest photons in an estimate of the integrator `photon-map`.
+  bool final_gather = false;  ///< True if `photon-map` gathers one event after the first scattering surface.
 };
-// Key tables and forms by which scene files are read, written and documented.
-[[nodiscard]] schema::Fields fields(schema::Tag<Photons>);
 
 /// Mode in which paths carry polarisation: where it changes the result (`automatic`), or never (`off`).
 enum class PolarisationMode { automatic, off };
@@ -34,13 +29,14 @@ struct Render {
   schema::Located<int> roulette_depth{{4}, {}};  ///< Events before Russian roulette begins; -1 disables it.
   std::uint64_t seed = 0;                        ///< Seed of the random numbers.
   std::optional<Photons> photons;                ///< Defaults if absent.
-  /// True to let the integrator `auto` choose `vcm` for light paths that no unbiased integrator can sample.
-  schema::Located<bool> consistent;
+  schema::Located<bool>
+      consistent;  ///< True to let `auto` choose `vcm` where no unbiased integrator samples.
   PolarisationMode polarisation = PolarisationMode::automatic;
   schema::Located<DirectionSampling> directions;  ///< Only for the integrator `path`.
   schema::Located<LightStrategy> lights;          ///< Only for the integrator `path`.
   schema::Located<MisHeuristic> heuristic;  ///< Only for the integrator `path` with the light strategy `mis`.
 };
+/// Key table by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<Render>);
 
 }  // namespace abbe::spec

@@ -61,11 +61,10 @@ struct Scene {
 
 namespace abbe::description {
 
-/// Builds the scene for its camera, or for `meter` if given, and sets `context.unit_m` and other members of
-/// the context. The scene is recentred but not yet committed; see `abbe::Scene::commit`. Reports every error
-/// to `context.diagnostics`. After an error the parts without errors are still checked, and the scene is
-/// incomplete. Throws Error{resource} if the memory limit is exceeded, and Error{input} for an unreadable
-/// environment image.
+/// Builds the scene for its camera, or for `meter` if given, and sets members of the context. The scene is
+/// recentred but not yet committed; see `abbe::Scene::commit`. Reports every error to `context.diagnostics`;
+/// after one the scene is incomplete. Throws Error{resource} if the memory limit is exceeded, and
+/// Error{input} for an unreadable environment image.
 [[nodiscard]] abbe::Scene build(const spec::Scene& scene, LoadContext& context, const Meter* meter = nullptr);
 /// Builds the meters of the scene in the order of the file, with lengths in metres, and sets
 /// `context.unit_m`. Reports every error to `context.diagnostics`; a meter whose surface has an error is left

@@ -22,9 +22,9 @@ struct Rotation {
 /// A step of a transform: a scale, then a rotation, then a translation.
 template <typename Scale>
 struct Step {
-  std::optional<Scale> scale;           ///< Factor for all lengths, or factors along x, y and z; 1 if absent.
-  std::optional<Rotation> rotate;       ///< No rotation if absent.
-  std::optional<Imath::V3d> translate;  ///< Displacement in scene units; none if absent.
+  std::optional<Scale> scale;  ///< Factor for all lengths, or factors along x, y and z; 1 if absent.
+  std::optional<Rotation> rotate;
+  std::optional<Imath::V3d> translate;  ///< In scene units.
 };
 /// A step that preserves angles.
 using Similarity = Step<double>;

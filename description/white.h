@@ -32,14 +32,12 @@ struct WhiteNames {
   std::function<std::optional<std::string>(const schema::Located<std::string>&)> illuminant;
 };
 
-/// Builds a reference white and marks it as requested. A name is that of a light, else of an illuminant.
-/// Reports an unknown name with the nearest known one, a name that several lights have, an illuminant that
-/// cannot be read, and coordinates with x + y above 1. Returns nothing after an error.
+/// Builds a reference white and marks it as requested. A name is that of a light, else of an illuminant (see
+/// `load_illuminant`). Reports an unknown name with the nearest known one, a name that several lights have,
+/// an illuminant that cannot be read, and coordinates with x + y above 1. Returns nothing after an error.
 [[nodiscard]] std::optional<White> build(const spec::White& white, const WhiteNames& names,
                                          Diagnostics& diagnostics);
-/// Reads and builds a reference white: the name of a light, else of an illuminant (see `load_illuminant`), or
-/// chromaticity coordinates [x, y]. Reports JSON of another form and the errors of `build`; returns nothing
-/// after an error.
+/// Reads and builds a reference white. Also reports JSON of another form.
 [[nodiscard]] std::optional<White> read_white(const JsonValue& json, const WhiteNames& names,
                                               Diagnostics& diagnostics);
 

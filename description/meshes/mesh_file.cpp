@@ -62,13 +62,7 @@ void complete_normals(Mesh& mesh) {
   }
 }
 
-}  // namespace
-
-bool may_have_materials(const std::filesystem::path& path) {
-  const MeshReader reader = reader_of(path);
-  return reader == read_obj || reader == read_gltf;
-}
-
+// Reads the bytes of a regular file; a .ply.gz is decompressed. Returns an error message, if there is one.
 std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, std::string& bytes,
                                            MemoryReservation& memory) {
   if (auto fault = file_fault(path)) return fault;
@@ -82,6 +76,13 @@ std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, st
   stream.read(bytes.data(), static_cast<std::streamsize>(size));
   if (!stream) return "cannot read the file";
   return std::nullopt;
+}
+
+}  // namespace
+
+bool may_have_materials(const std::filesystem::path& path) {
+  const MeshReader reader = reader_of(path);
+  return reader == read_obj || reader == read_gltf;
 }
 
 bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading) {

@@ -40,7 +40,7 @@ enum class FileMaterials {
   wanted    ///< Triangles are split by material.
 };
 /// Mode in which texture coordinates at the corners of triangles are read: not at all, or if the file has
-/// them. v increases upwards; that of glTF is converted. Those of PLY files are not read.
+/// them. v increases upwards. Those of PLY files are not read.
 enum class FileCoordinates { ignored, wanted };
 
 /// True for the extensions .obj, .gltf and .glb, in either case: such files may contain materials.

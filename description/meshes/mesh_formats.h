@@ -55,24 +55,17 @@ struct MeshReading {
 /// reverses the winding of triangles.
 [[nodiscard]] bool read_gltf(std::string&& bytes, MeshReading& reading);
 
-/// Reads the bytes of a regular file into `bytes`, which must be empty; a .ply.gz is decompressed. Returns
-/// nothing on success, otherwise an error message without the path. It is an error if the file, or its
-/// decompressed bytes, exceed 4 GiB. `memory` counts the bytes first. Throws Error{resource} if the memory
-/// limit is exceeded.
-[[nodiscard]] std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path,
-                                                         std::string& bytes, MemoryReservation& memory);
 /// Reads the bytes of another file that the mesh file names into `bytes`, which must be empty, and adds its
 /// path to `reading.file.others`. `name` is relative to the folder of the mesh file. False after setting
-/// `reading.fault`, for a file outside that folder and its subfolders, and for the errors of
-/// `read_mesh_bytes`.
+/// `reading.fault`, for a file outside that folder and its subfolders, and for one that cannot be read or
+/// exceeds 4 GiB.
 [[nodiscard]] bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading);
 
-/// Cuts a polygon of n >= 3 corners into n - 2 triangles with its winding. They replace the contents of
-/// `triangles` and refer to corners by index. The result is a fan around the first corner in two cases: if no
-/// triangle of the fan turns back as seen along the normal, which holds for every convex polygon; and if a
-/// polygon that is not flat folds over itself. Otherwise the polygon is cut by its ears. Returns nothing on
-/// success. Returns an error message for a flat polygon whose edges cross, and for a polygon of more than
-/// 16384 corners that is not convex; `triangles` is then not usable.
+/// Cuts a polygon of n >= 3 corners into n - 2 triangles with its winding, which replace the contents of
+/// `triangles`. The result is a fan around the first corner if no triangle of the fan turns back, as in every
+/// convex polygon, or if a polygon that is not flat folds over itself. Otherwise the polygon is cut by its
+/// ears. Returns nothing on success, and an error message for a flat polygon whose edges cross and one of
+/// more than 16384 corners that is not convex; `triangles` is then not usable.
 [[nodiscard]] std::optional<std::string> cut_polygon(const std::vector<Imath::V3d>& corners,
                                                      std::vector<Triangle>& triangles);
 /// Adds to `list` one entry per triangle that `cut_polygon` made: the attributes at its corners. `polygon`
@@ -89,12 +82,10 @@ void add_corners(const std::vector<Corner>& polygon, const std::vector<Triangle>
   return length2 > 0 && std::isfinite(length2) ? Imath::V3f(given.normalized()) : Imath::V3f(0);
 }
 
-/// Decompresses the file `path` [RFC1952] and appends the result to `bytes`. Returns nothing on success, and
-/// otherwise an error message without the path:
-/// - a file that cannot be opened, is not in gzip format, is damaged or is truncated;
-/// - `bytes` longer than `limit` bytes in all, because a small file may unpack to any length.
-/// `bytes` then holds what was unpacked so far. Its growth is reserved in `memory` before it is allocated.
-/// Throws Error{resource} if that exceeds the memory limit.
+/// Decompresses the file `path` [RFC1952] and appends the result to `bytes`, whose growth is reserved in
+/// `memory` first. Returns nothing on success, and otherwise an error message without the path. It is an
+/// error if `bytes` exceed `limit` in all, because a small file may unpack to any length. Throws
+/// Error{resource} if the memory limit is exceeded.
 [[nodiscard]] std::optional<std::string> read_gzip_bytes(const std::filesystem::path& path, std::size_t limit,
                                                          std::string& bytes, MemoryReservation& memory);
 
