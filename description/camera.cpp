@@ -163,18 +163,14 @@ std::optional<double> closed_stop(const spec::LensSystem& spec, const lens::Syst
                                                           : "the aperture of its prescription"));
 }
 
-void warn_of_lost_defocus(const spec::LensSystem& spec, const lens::System& lens, LoadContext& context) {
-  if (lens.defocus_mm == 0) return;
-  context.diagnostics.warning(
-      spec.prescription.where,
-      fmt::format("defocus has no effect (got {:g} mm): a focus_distance moves the film into focus",
-                  lens.defocus_mm));
-}
-
 // Moves the film to the image of an object at the focus distance from the first surface. False after an
 // error.
 bool focus(const spec::LensSystem& spec, lens::System& lens, double stop_radius, LoadContext& context) {
-  warn_of_lost_defocus(spec, lens, context);
+  if (lens.defocus_mm != 0)
+    context.diagnostics.warning(
+        spec.prescription.where,
+        fmt::format("defocus has no effect (got {:g} mm): a focus_distance moves the film into focus",
+                    lens.defocus_mm));
   const auto* distance = std::get_if<double>(&*spec.focus_distance);
   lens.object_distance_mm =
       distance != nullptr ? std::optional(*distance * context.unit_m * lens::kMmPerM) : std::nullopt;
@@ -290,20 +286,17 @@ std::optional<Pinhole> build(const spec::PinholeCamera& camera, const SourcePosi
                  aperture->transmittance};
 }
 
-// Distance to the plane in focus [m]; infinity is allowed.
-double focus_distance(const spec::ThinLens& lens, const PlacedView& view, const LoadContext& context) {
-  if (!lens.focus_distance) return view.distance;
-  const auto* distance = std::get_if<double>(&*lens.focus_distance);
-  return distance ? *distance * context.unit_m : std::numeric_limits<double>::infinity();
-}
-
 std::optional<ThinLens> build(const spec::ThinLensCamera& camera, const SourcePosition& where,
                               const LoadContext& context) {
   const auto view = build(camera.view, where, context);
   const auto iris = build(camera.lens.iris, context);
   const auto aperture = build(camera.lens.aperture, iris ? iris->area_fraction() : 1, context);
   if (!view || !aperture) return std::nullopt;
-  const double focus = focus_distance(camera.lens, *view, context);
+  double focus = view->distance;
+  if (const auto& given = camera.lens.focus_distance) {
+    const auto* distance = std::get_if<double>(&*given);
+    focus = distance ? *distance * context.unit_m : std::numeric_limits<double>::infinity();
+  }
   const double f = camera.lens.focal_length * context.unit_m;
   if (focus <= f)
     return context.refuse(

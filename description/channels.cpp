@@ -255,12 +255,6 @@ const SourcePosition& where_of_channel(const Channel& channel, const spec::Senso
       spec.counts);
 }
 
-void require_response(const Channel& channel, const SourcePosition& where, LoadContext& context) {
-  if (envelope(channel).max() == 0 && envelope(channel).min() == 0)
-    context.diagnostics.error(where, fmt::format("channel \"{}\" responds to no wavelength in [{}, {}] nm",
-                                                 channel.name, kMinWavelengthNm, kMaxWavelengthNm));
-}
-
 // Sets the channels, behind all filters, or the wavelength bins.
 void build_filtered(const spec::Sensor& spec, Sensor& sensor, LoadContext& context) {
   const std::optional<Detector> detector = build_detector(spec, context);
@@ -271,7 +265,10 @@ void build_filtered(const spec::Sensor& spec, Sensor& sensor, LoadContext& conte
     if (detector && detector->polariser && !channel.analyser)
       channel = behind(std::move(channel), *detector->polariser);
     limit_angles(channel, 0);
-    require_response(channel, where_of_channel(channel, spec), context);
+    if (envelope(channel).max() == 0 && envelope(channel).min() == 0)
+      context.diagnostics.error(where_of_channel(channel, spec),
+                                fmt::format("channel \"{}\" responds to no wavelength in [{}, {}] nm",
+                                            channel.name, kMinWavelengthNm, kMaxWavelengthNm));
   }
 }
 

@@ -11,12 +11,6 @@
 namespace abbe::description {
 namespace {
 
-void check_clear(const Material& material, const Support& sensor, const SourcePosition& where,
-                 Diagnostics& diagnostics) {
-  for (double nm = sensor.low; nm <= sensor.high; ++nm)
-    if (const auto fault = transparency_fault(material, nm)) return diagnostics.error(where, *fault);
-}
-
 // Rays start about four float steps off a surface, so a body of fewer steps than this is not resolved.
 constexpr double kMinSteps = 64;
 // An opaque shape of fewer steps than this is displaced by a noticeable fraction of its size.
@@ -89,11 +83,12 @@ void check_validity(const spec::Materials& materials, const LoadContext& context
   Support sensor;
   for (const Channel& channel : scene.channels) extend(sensor, envelope(channel));
   for (const Material& material : scene.materials) {
-    const auto spec = std::find_if(materials.begin(), materials.end(),
-                                   [&](const auto& named) { return named.name == material.name; });
+    const auto spec = std::ranges::find(materials, material.name, &spec::Materials::value_type::name);
     const SourcePosition where = spec != materials.end() ? spec->where : SourcePosition{};
     for (const IndexUse& use : indices(material)) check_validity(use, sensor, where, context.diagnostics);
-    check_clear(material, sensor, where, context.diagnostics);
+    std::optional<std::string> fault;
+    for (double nm = sensor.low; nm <= sensor.high && !fault; ++nm) fault = transparency_fault(material, nm);
+    if (fault) context.diagnostics.error(where, *fault);
   }
 }
 

@@ -223,14 +223,6 @@ void set_wavelengths(const spec::Lens& spec, System& system, Diagnostics& diagno
   system.primary = static_cast<std::size_t>(found - spec.wavelengths_nm.begin());
 }
 
-void require_air(const spec::Lens& spec, const System& system, Diagnostics& diagnostics) {
-  const auto& glass = system.surfaces.back().behind;
-  if (glass && glass->index.n(system.primary_nm()) != 1)
-    diagnostics.error(
-        spec.surfaces.back().where,
-        fmt::format("the image of a lens must be in air (got {} behind the last surface)", glass->name));
-}
-
 // Heights of an object at a finite distance that appear under these angles from the entrance pupil.
 std::vector<double> object_heights(const spec::Lens& spec, std::vector<double> angles_deg, double pupil_mm,
                                    Diagnostics& diagnostics) {
@@ -307,20 +299,6 @@ std::optional<double> image_distance(const spec::Lens& spec, System system, Diag
   return shift ? std::optional(last + *shift) : std::nullopt;
 }
 
-void set_focus(const spec::Lens& spec, System& system, Diagnostics& diagnostics) {
-  if (const auto distance = image_distance(spec, system, diagnostics))
-    system.surfaces.back().thickness_mm = *distance + spec.defocus;
-  system.defocus_mm = spec.defocus;
-}
-
-// Replaces the wavelengths. Stop and image stay as they are set at the lens's own primary wavelength.
-void use_wavelengths(System& system, const std::vector<double>& wavelengths_nm) {
-  system.aperture = {lens::ApertureKind::stop, lens::stop_radius(system)};
-  system.set_at_nm = system.primary_nm();
-  system.wavelengths_nm = wavelengths_nm;
-  system.primary = wavelengths_nm.size() / 2;
-}
-
 // Text of an aperture of this kind with this value.
 std::string describe_aperture(lens::ApertureKind kind, double value) {
   return kind == lens::ApertureKind::entrance_pupil ? fmt::format("an entrance pupil of {:.4g} mm", value)
@@ -350,25 +328,28 @@ void check_stop(const spec::Lens& spec, const System& system, Diagnostics& diagn
                   widest_opening(system, *aperture)));
 }
 
-void warn_of_cut_beam(const spec::Lens& spec, const System& system, Diagnostics& diagnostics) {
-  const auto ray = lens::cut_rim_ray(lens::SystemAt(system, system.primary_nm()), lens::stop_radius(system));
-  if (!ray) return;
-  diagnostics.warning(spec.where,
-                      fmt::format("part of the axial beam that fills the stop does not reach the image: its "
-                                  "rim {}. T-stops include this loss, f-numbers do not",
-                                  lens::reason(*ray)));
-}
-
 // Sets stop and image, then the wavelengths if any are given. False after an error.
 bool set_up(const spec::Lens& spec, System& system, const std::vector<double>& wavelengths_nm,
             Diagnostics& diagnostics) {
   try {
     check_stop(spec, system, diagnostics);
     if (diagnostics.has_errors()) return false;
-    set_focus(spec, system, diagnostics);
-    if (diagnostics.has_errors()) return false;
-    warn_of_cut_beam(spec, system, diagnostics);
-    if (!wavelengths_nm.empty()) use_wavelengths(system, wavelengths_nm);
+    const auto distance = image_distance(spec, system, diagnostics);
+    if (!distance) return false;
+    system.surfaces.back().thickness_mm = *distance + spec.defocus;
+    system.defocus_mm = spec.defocus;
+    const double stop = lens::stop_radius(system);
+    if (const auto ray = lens::cut_rim_ray(lens::SystemAt(system, system.primary_nm()), stop))
+      diagnostics.warning(spec.where,
+                          fmt::format("part of the axial beam that fills the stop does not reach the image: "
+                                      "its rim {}. T-stops include this loss, f-numbers do not",
+                                      lens::reason(*ray)));
+    if (wavelengths_nm.empty()) return true;
+    // Stop and image stay as they are set at the lens's own primary wavelength.
+    system.aperture = {lens::ApertureKind::stop, stop};
+    system.set_at_nm = system.primary_nm();
+    system.wavelengths_nm = wavelengths_nm;
+    system.primary = wavelengths_nm.size() / 2;
     return true;
   } catch (const Error& error) {  // Thrown if no ray reaches the rim of the stop.
     diagnostics.error(spec.where, error.what());
@@ -393,7 +374,10 @@ std::optional<System> build(const spec::Lens& spec, LoadContext& context,
   set_wavelengths(spec, system, context.diagnostics);
   check_gaps(spec, system, context.diagnostics);
   if (context.diagnostics.has_errors()) return std::nullopt;
-  require_air(spec, system, context.diagnostics);
+  if (const auto& glass = system.surfaces.back().behind; glass && glass->index.n(system.primary_nm()) != 1)
+    context.diagnostics.error(
+        spec.surfaces.back().where,
+        fmt::format("the image of a lens must be in air (got {} behind the last surface)", glass->name));
   set_fields(spec, system, context.diagnostics);
   if (context.diagnostics.has_errors()) return std::nullopt;
   if (!set_up(spec, system, wavelengths_nm, context.diagnostics)) return std::nullopt;

@@ -1,10 +1,12 @@
 // Files of luminous intensity: ANSI/IES LM-63 and EULUMDAT.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -241,12 +243,11 @@ std::optional<MeasuredPlanes> read_lm63(const Text& text, Diagnostics& diagnosti
   factor *= values.number("ballast factor", kPositiveFactor);
   // The meaning of this value changed in 1995.
   const std::string header = lower_case(lines.front().text);
-  const bool has_photometric_factor_factor =
-      header.find("lm-63-1995") == std::string::npos && header.find("lm-63-20") == std::string::npos;
   const double photometric_factor = values.number("photometric factor", kNotNegative);
-  if (has_photometric_factor_factor && !(photometric_factor > 0))
-    values.refuse_last("photometric factor", "a number greater than 0");
-  if (has_photometric_factor_factor) factor *= photometric_factor;
+  if (header.find("lm-63-1995") == std::string::npos && header.find("lm-63-20") == std::string::npos) {
+    if (!(photometric_factor > 0)) values.refuse_last("photometric factor", "a number greater than 0");
+    factor *= photometric_factor;
+  }
   values.number("input watts");
   MeasuredPlanes measured;
   measured.gammas_deg = values.numbers(gammas, "vertical angle", kVerticalAngle);
@@ -257,27 +258,6 @@ std::optional<MeasuredPlanes> read_lm63(const Text& text, Diagnostics& diagnosti
   if (values.more()) diagnostics.warning(values.where(), "values after the last candela value are ignored");
   for (double& candelas : measured.candelas) candelas *= factor;
   return measured;
-}
-
-// Half-planes in an EULUMDAT file: the index of the first one among those all around, and their number.
-struct StoredPlanes {
-  std::size_t first;
-  std::size_t count;
-  std::vector<double> mirrors_deg;
-};
-StoredPlanes stored_planes(std::size_t symmetry, std::size_t all) {
-  switch (symmetry) {
-    case 1:
-      return {0, 1, {}};
-    case 2:
-      return {0, all / 2 + 1, {0}};
-    case 3:
-      return {3 * all / 4, all / 2 + 1, {90}};
-    case 4:
-      return {0, all / 4 + 1, {90, 0}};
-    default:
-      return {0, all, {}};
-  }
 }
 
 // The intensities are in cd per 1000 lm of the light sources.
@@ -308,12 +288,19 @@ std::optional<MeasuredPlanes> read_eulumdat(const Text& text, Diagnostics& diagn
   const std::vector<double> planes = values.numbers(all, "C-plane", kHorizontalAngle);
   MeasuredPlanes measured;
   measured.gammas_deg = values.numbers(gammas, "gamma angle", kVerticalAngle);
-  const StoredPlanes stored = stored_planes(symmetry, all);
-  measured.mirrors_deg = stored.mirrors_deg;
-  measured.candelas = values.numbers(gammas * stored.count, "luminous intensity", kNotNegative, false);
+  // Stored half-planes by symmetry indicator: the index of the first one among those all around, their
+  // number, and the planes of symmetry.
+  const std::array<std::tuple<std::size_t, std::size_t, std::vector<double>>, 5> stored{
+      {{0, all, {}},
+       {0, 1, {}},
+       {0, all / 2 + 1, {0}},
+       {3 * all / 4, all / 2 + 1, {90}},
+       {0, all / 4 + 1, {90, 0}}}};
+  const auto& [first, count, mirrors_deg] = stored.at(symmetry);
+  measured.mirrors_deg = mirrors_deg;
+  measured.candelas = values.numbers(gammas * count, "luminous intensity", kNotNegative, false);
   if (values.failed()) return std::nullopt;
-  for (std::size_t i = 0; i < stored.count; ++i)
-    measured.planes_deg.push_back(planes[(stored.first + i) % all]);
+  for (std::size_t i = 0; i < count; ++i) measured.planes_deg.push_back(planes[(first + i) % all]);
   for (double& candelas : measured.candelas) candelas *= factor;
   return measured;
 }

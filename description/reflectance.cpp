@@ -85,15 +85,6 @@ std::optional<Weights> build(const spec::Weights& spec, LoadContext& context) {
   return weights;
 }
 
-void warn_of_alpha(const TextureFile& file, LoadContext& context) {
-  const ImageChannel* alpha = file.image.find("A");
-  if (alpha && std::ranges::any_of(alpha->values, [](float value) { return value != 1; }))
-    context.diagnostics.warning(
-        file.where,
-        fmt::format("texture \"{}\": its alpha channel is ignored, and colours are used as stored",
-                    file.name));
-}
-
 std::optional<Weights> build(const spec::Rgb& spec, const TextureFile& file, LoadContext& context) {
   if (!spec.value)
     return context.refuse(spec.where, "an image that is not rgb needs weights (got false, allowed true)");
@@ -105,7 +96,12 @@ std::optional<Weights> build(const spec::Rgb& spec, const TextureFile& file, Loa
                               fmt::format("texture \"{}\": RGB values do not determine a spectrum: the "
                                           "smooth spectrum of the same colour under D65 is used",
                                           file.name));
-  warn_of_alpha(file, context);
+  const ImageChannel* alpha = file.image.find("A");
+  if (alpha && std::ranges::any_of(alpha->values, [](float value) { return value != 1; }))
+    context.diagnostics.warning(
+        file.where,
+        fmt::format("texture \"{}\": its alpha channel is ignored, and colours are used as stored",
+                    file.name));
   const RgbBasis& basis = rgb_basis();
   return Weights{{"R", "G", "B"},
                  {basis.red, basis.green, basis.blue},
@@ -236,8 +232,6 @@ std::optional<TextureFile> build(const spec::TextureFile& spec, LoadContext& con
   }
 }
 
-constexpr std::array<std::string_view, 3> kColours{"R", "G", "B"};
-
 std::optional<std::vector<float>> read_texels(const TextureFile& file, std::span<const std::string> channels,
                                               const Encoding& encoding, LoadContext& context) {
   context.take_memory(fmt::format("texture \"{}\"", file.name),
@@ -245,8 +239,8 @@ std::optional<std::vector<float>> read_texels(const TextureFile& file, std::span
   std::vector<float> texels(file.image.pixels() * channels.size());
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const ImageChannel* channel = file.image.find(channels[c]);
-    if (channel == nullptr && std::ranges::find(kColours, channels[c]) != kColours.end())
-      channel = file.image.find("Y");  // a grey picture
+    const bool is_colour = channels[c] == "R" || channels[c] == "G" || channels[c] == "B";
+    if (channel == nullptr && is_colour) channel = file.image.find("Y");  // a grey picture
     if (channel == nullptr) {
       std::vector<std::string> names;
       for (const ImageChannel& known : file.image.channels) names.push_back(known.name);

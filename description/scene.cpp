@@ -74,16 +74,12 @@ OutputSettings build(const spec::Output& spec, LoadContext& context, const Scene
   return output;
 }
 
-// Reports a missing camera or sensor. Called only without earlier errors, which may be the reason.
-void require_camera(const spec::Scene& spec, LoadContext& context) {
-  if (!spec.camera)
-    context.diagnostics.error(spec.where, "the scene has meters but no camera: use abbe meter");
-  else if (!spec.sensor)
-    context.diagnostics.error(spec.where, "missing key \"sensor\"");
-}
-
 void build_sensor(const spec::Scene& spec, LoadContext& context, Scene& scene) {
-  if (!context.diagnostics.has_errors()) require_camera(spec, context);
+  // Earlier errors may be the reason why a key is missing.
+  if (!context.diagnostics.has_errors() && !spec.camera)
+    context.diagnostics.error(spec.where, "the scene has meters but no camera: use abbe meter");
+  else if (!context.diagnostics.has_errors() && !spec.sensor)
+    context.diagnostics.error(spec.where, "missing key \"sensor\"");
   Sensor sensor;
   const bool probe = spec.camera && std::holds_alternative<spec::Probe>(spec.camera->kind);
   if (spec.sensor) {
@@ -126,11 +122,6 @@ void check_exposures(const spec::Scene& spec, const LoadContext& context, const 
                       channel.exposure_ratio * scene.exposure_s, channel.name, scene.exposure_s));
 }
 
-void set_placement(Placement& at, const Imath::M44d& to_world) {
-  at.to_world = to_world;
-  at.to_prototype = to_world.inverse();
-}
-
 // Translates the scene so that its working range is centered on the origin, where single precision resolves
 // best. Until here all coordinates are in double precision.
 void recentre(Scene& scene, const LoadContext& context) {
@@ -138,7 +129,8 @@ void recentre(Scene& scene, const LoadContext& context) {
   for (ShapeInstance& instance : scene.shapes)
     std::visit([&](auto& shape) { shift(shape, -scene.origin_m); }, instance.shape);
   for (const auto& at : context.placements) {
-    set_placement(*at, at->to_world * Imath::M44d().setTranslation(-scene.origin_m));
+    at->to_world = at->to_world * Imath::M44d().setTranslation(-scene.origin_m);
+    at->to_prototype = at->to_world.inverse();
     at->described_origin -= scene.origin_m;
   }
   for (const auto& motion : context.motions) motion->recentre(scene.origin_m);

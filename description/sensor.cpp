@@ -224,14 +224,6 @@ void build_resolution(const spec::Sensor& spec, bool probe, Sensor& sensor, Load
   sensor.height = static_cast<int>(height);
 }
 
-// Index of the channel that one cell of the mosaic names.
-std::optional<int> find_mosaic_channel(const schema::Located<std::string>& name,
-                                       const std::vector<std::string>& names, LoadContext& context) {
-  const auto known = std::find(names.begin(), names.end(), name.value);
-  if (known != names.end()) return static_cast<int>(known - names.begin());
-  return context.refuse(name.where, unknown_name("channel", name.value, names));
-}
-
 std::optional<Mosaic> build_mosaic(const spec::Sensor& spec, const std::vector<Channel>& channels,
                                    LoadContext& context) {
   if (channels.empty()) return std::nullopt;  // The channels' errors have been reported.
@@ -244,8 +236,13 @@ std::optional<Mosaic> build_mosaic(const spec::Sensor& spec, const std::vector<C
       return context.refuse(row.where,
                             fmt::format("rows of a mosaic must have the same length (got {}, allowed {})",
                                         row.value.size(), mosaic.width));
-    for (const auto& cell : row.value)
-      if (const auto channel = find_mosaic_channel(cell, names, context)) mosaic.channel.push_back(*channel);
+    for (const auto& cell : row.value) {
+      const auto known = std::ranges::find(names, cell.value);
+      if (known != names.end())
+        mosaic.channel.push_back(static_cast<int>(known - names.begin()));
+      else
+        context.diagnostics.error(cell.where, unknown_name("channel", cell.value, names));
+    }
   }
   if (mosaic.channel.size() != rows.size() * static_cast<std::size_t>(mosaic.width)) return std::nullopt;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -302,12 +299,6 @@ void check_scale(const spec::Sensor& spec, const Sensor& sensor, LoadContext& co
     check_daylight(sensor.channels, spec.electrons_per_lx_s->where, context.diagnostics);
   else if (iso != nullptr)
     check_daylight(sensor.channels, iso->where, context.diagnostics);
-}
-
-// Polarisation is recorded in the frame of a picture, which a probe does not have.
-void check_polarisation(const spec::Sensor& spec, const Sensor& sensor, LoadContext& context) {
-  if (any_analyser(sensor.channels))
-    context.diagnostics.error(spec.where, "an irradiance probe does not record polarisation");
 }
 
 namespace fs = std::filesystem;
@@ -383,7 +374,9 @@ Sensor build(const spec::Sensor& spec, bool probe, LoadContext& context) {
   if (spec.shutter) sensor.shutter = build(*spec.shutter, sensor.exposure_s, sensor.height, context);
   sensor.fill_factor = spec.fill_factor;
   build_channels(spec, sensor, context);
-  if (probe) check_polarisation(spec, sensor, context);
+  // Polarisation is recorded in the frame of a picture, which a probe does not have.
+  if (probe && any_analyser(sensor.channels))
+    context.diagnostics.error(spec.where, "an irradiance probe does not record polarisation");
   scale_to_sensitivity(spec, sensor, context);
   check_scale(spec, sensor, context);
   if (spec.model && std::holds_alternative<std::monostate>(spec.counts))

@@ -72,13 +72,6 @@ namespace {
 // Generous bound of the relative error of a determinant in double precision.
 constexpr double kDeterminantRounding = 1e-13;
 
-Imath::M44d scaling(double factor) {
-  return Imath::M44d().setScale(factor);
-}
-Imath::M44d scaling(const Imath::V3d& factors) {
-  return Imath::M44d().setScale(factors);
-}
-
 // Appends rotation, then translation, which follow the scale of a step.
 void append_motion(Imath::M44d& matrix, const std::optional<spec::Rotation>& rotate,
                    const std::optional<Imath::V3d>& translate, const LoadContext& context) {
@@ -89,7 +82,8 @@ void append_motion(Imath::M44d& matrix, const std::optional<spec::Rotation>& rot
 }
 
 bool append(Imath::M44d& matrix, const spec::GeneralStep& step, const LoadContext& context) {
-  if (step.scale) matrix = matrix * std::visit([](const auto& by) { return scaling(by); }, *step.scale);
+  if (step.scale)
+    matrix = matrix * std::visit([](const auto& by) { return Imath::M44d().setScale(by); }, *step.scale);
   append_motion(matrix, step.rotate, step.translate, context);
   return true;
 }
@@ -134,7 +128,7 @@ Transform build(const std::vector<spec::Similarity>& steps, const LoadContext& c
   Transform transform;
   for (const spec::Similarity& step : steps) {
     if (step.scale) {
-      transform.matrix = transform.matrix * scaling(*step.scale);
+      transform.matrix = transform.matrix * Imath::M44d().setScale(*step.scale);
       transform.scale *= *step.scale;
     }
     append_motion(transform.matrix, step.rotate, step.translate, context);

@@ -20,12 +20,6 @@ std::optional<White> build_chromaticity(const Chromaticity& white, const SourceP
   return std::nullopt;
 }
 
-// True if the name may be that of an illuminant, so that loading it gives the better message.
-bool may_be_illuminant(const std::string& name, const std::vector<std::string>& illuminants) {
-  return user_table_end(name) != std::string::npos || name.find(':') != std::string::npos ||
-         std::find(illuminants.begin(), illuminants.end(), name) != illuminants.end();
-}
-
 // Builds the white of a light of the scene or of an illuminant.
 std::optional<White> build_named(const std::string& name, const SourcePosition& where,
                                  const WhiteNames& names, Diagnostics& diagnostics) {
@@ -38,7 +32,9 @@ std::optional<White> build_named(const std::string& name, const SourcePosition& 
     return std::nullopt;
   }
   std::vector<std::string> known = table_names("illuminant");
-  if (!may_be_illuminant(name, known)) {
+  // Loading an illuminant gives the better message if the name may be that of one.
+  if (user_table_end(name) == std::string::npos && name.find(':') == std::string::npos &&
+      std::ranges::find(known, name) == known.end()) {
     known.insert(known.begin(), lights.begin(), lights.end());
     diagnostics.error(where, unknown_name("light or illuminant", name, known));
     return std::nullopt;

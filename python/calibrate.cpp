@@ -34,16 +34,13 @@ py::dict curves_of(const std::vector<ChannelResponse>& responses) {
   py::dict curves;
   for (const ChannelResponse& response : responses) {
     const std::vector<double>& linear = response.fit.linear;
-    py::array_t<double> rows({linear.size(), std::size_t{4}});
-    auto row = rows.mutable_unchecked<2>();
+    std::vector<std::array<double, 4>> rows;
     for (std::size_t i = 0; i < linear.size(); ++i) {
       const auto [low, high] = bounds_95(response.fit, i);
-      const std::array<double, 4> values{static_cast<double>(i) / static_cast<double>(linear.size() - 1),
-                                         linear[i], low, high};
-      for (std::size_t k = 0; k < 4; ++k)
-        row(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(k)) = values[k];
+      const double code = static_cast<double>(i) / static_cast<double>(linear.size() - 1);
+      rows.push_back({code, linear[i], low, high});
     }
-    curves[py::str(response.channel)] = rows;
+    curves[py::str(response.channel)] = py::array(py::cast(rows));
   }
   return curves;
 }

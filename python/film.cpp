@@ -108,13 +108,6 @@ void write_film(const FilmHandle& film, const fs::path& path) {
     write_exr(path, *image);
 }
 
-// Exact sums of a Python film.
-const RenderPart& sums_of(const py::handle& film, const fs::path& name) {
-  const auto& part = film.cast<const FilmHandle&>().part();
-  if (!part) throw Error(ErrorCode::usage, name, "was read from an image, which has no exact sums to add");
-  return *part;
-}
-
 // One input of `merge`: a Python film, or the path of a part, with a name for messages.
 struct MergeInput {
   const RenderPart* film;  // nullptr for a path
@@ -136,11 +129,14 @@ std::vector<MergeInput> merge_inputs(const py::sequence& films) {
     throw py::type_error("films: expected a list of films or paths (got a str)");
   std::vector<MergeInput> all;
   for (std::size_t i = 0; i < films.size(); ++i) {
-    const fs::path name = fmt::format("films[{}]", i);
-    all.push_back(py::isinstance<FilmHandle>(films[i])
-                      ? MergeInput{&sums_of(films[i], name), name}
-                      : MergeInput{nullptr, argument<fs::path>(films[i], name.c_str(),
-                                                               "a film or the path of a part")});
+    const std::string name = fmt::format("films[{}]", i);
+    if (!py::isinstance<FilmHandle>(films[i])) {
+      all.push_back({nullptr, argument<fs::path>(films[i], name.c_str(), "a film or the path of a part")});
+      continue;
+    }
+    const auto& part = films[i].cast<const FilmHandle&>().part();
+    if (!part) refuse_argument(name, "was read from an image, which has no exact sums to add");
+    all.push_back({&*part, name});
   }
   return all;
 }

@@ -107,18 +107,6 @@ void require_within(const char* argument, std::int64_t value, std::int64_t low, 
                 fmt::format("got {}, allowed whole numbers in [{}, {}]", value, low, high));
 }
 
-// The number of samples is either given or determined by the limits of time and error.
-void require_compatible(const Request& request) {
-  const std::pair<bool, const char*> fixed[]{{request.spp.has_value(), "spp"},
-                                             {request.samples.has_value(), "sample_range"}};
-  const std::pair<bool, const char*> open[]{{request.error.has_value(), "error"},
-                                            {request.time.has_value(), "time"}};
-  for (const auto& [is_given, argument] : fixed)
-    for (const auto& [is_other_given, other] : open)
-      if (is_given && is_other_given)
-        throw Error(ErrorCode::usage, "", fmt::format("{} excludes {}", argument, other));
-}
-
 }  // namespace
 
 RenderResult render_listening(const abbe::Scene& scene, RenderOptions how, const py::object& progress) {
@@ -143,7 +131,11 @@ void require_valid(const Request& request) {
   require(!request.error || (*request.error > 0 && *request.error < 1), "error",
           fmt::format("{}", request.error.value_or(0)), "(0, 1)");
   require(!request.time || *request.time > 0, "time", fmt::format("{}", request.time.value_or(0)), "above 0");
-  require_compatible(request);
+  // The number of samples is either given or determined by the limits of time and error.
+  const char* const given = request.spp ? "spp" : request.samples ? "sample_range" : nullptr;
+  const char* const limit = request.error ? "error" : request.time ? "time" : nullptr;
+  if (given != nullptr && limit != nullptr)
+    throw Error(ErrorCode::usage, "", fmt::format("{} excludes {}", given, limit));
 }
 
 RenderOptions render_limits(const Request& request) {

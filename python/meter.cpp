@@ -120,11 +120,6 @@ std::vector<std::string> names_of(const py::object& only) {
   return names;
 }
 
-SceneSource source_of_meters(const py::object& scene) {
-  if (py::isinstance<SceneHandle>(scene)) return scene.cast<const SceneHandle&>().source();
-  return source_of(scene, py::none(), {});
-}
-
 MeteredScene read_meters(const SceneSource& source, Inputs& inputs) {
   Diagnostics diagnostics;
   return accepted(source.text
@@ -158,7 +153,8 @@ std::vector<MeterMeasurement> measure(const SceneSource& source, const std::vect
 py::dict meter(const py::object& scene, const py::object& only, const Request& request,
                const py::object& integrator, const py::object& progress) {
   require_valid(request);
-  SceneSource source = source_of_meters(scene);
+  SceneSource source = py::isinstance<SceneHandle>(scene) ? scene.cast<const SceneHandle&>().source()
+                                                          : source_of(scene, py::none(), {});
   for (Override& setting : settings_of(request, integrator)) source.overrides.push_back(std::move(setting));
   const std::vector<std::string> names = names_of(only);
   std::vector<MeterMeasurement> all;
