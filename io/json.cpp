@@ -380,7 +380,7 @@ std::string ValueTree::next_pointer() const {
   if (open_.empty()) return pointer_;
   const JsonValue& parent = *open_.back();
   const auto* array = std::get_if<JsonValue::Array>(&parent.value);
-  const std::string token = array ? std::to_string(array->size()) : escaped(key_);
+  const std::string token = array ? std::to_string(array->size()) : escaped_key(key_);
   std::string pointer;
   pointer.reserve(parent.where.pointer.size() + 1 + token.size());
   return pointer.append(parent.where.pointer).append("/").append(token);

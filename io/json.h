@@ -58,7 +58,7 @@ struct JsonValue::Member {
 [[nodiscard]] std::string to_lines(const JsonValue& value, std::size_t width);
 
 /// A key escaped for a JSON pointer: "~0" for "~", "~1" for "/" [RFC6901].
-[[nodiscard]] std::string escaped(std::string_view key);
+[[nodiscard]] std::string escaped_key(std::string_view key);
 
 /// Sets the value at a JSON pointer (RFC 6901), such as "/render/samples", in `root`; the empty pointer
 /// replaces `root`. `text` is JSON. Text that is not JSON, such as a bare word or path, is taken as a string.

@@ -119,7 +119,7 @@ class Converter {
       if (!py::isinstance<py::str>(key))
         refuse(pointer_, fmt::format("expected keys that are strings (got a {})", type_name(key)));
       const std::string name = utf8_of(key);
-      members.push_back({name, inner(escaped(name), value)});
+      members.push_back({name, inner(escaped_key(name), value)});
     }
     return members;
   }

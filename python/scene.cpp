@@ -33,7 +33,7 @@ std::vector<Override> overrides_of(const py::dict& keywords) {
   const JsonValue all = to_json(keywords);
   std::vector<Override> overrides;
   for (const auto& [name, value] : std::get<JsonValue::Object>(all.value))
-    overrides.push_back({"/" + escaped(name), to_text(value), name});
+    overrides.push_back({"/" + escaped_key(name), to_text(value), name});
   return overrides;
 }
 

@@ -51,33 +51,32 @@ void note_textures(FileMaterial& material, const tinygltf::Material& from) {
 
 // Reads the refractive index of a transmitting material, which becomes clear glass, and notes the features
 // that are ignored then.
-bool read_transmission(const tinygltf::Material& from, FileMaterial& material, MeshReading& reading) {
+void read_transmission(const tinygltf::Material& from, FileMaterial& material) {
   constexpr double kDefaultIndex = 1.5;
   const tinygltf::Value* transmission = extension(from, "KHR_materials_transmission");
   const double transmitted = number_or(transmission, "transmissionFactor", 0);
-  if (!(transmitted > 0)) return true;
+  if (!(transmitted > 0)) return;
   material.index = number_or(extension(from, "KHR_materials_ior"), "ior", kDefaultIndex);
   if (!(*material.index > 0 && *material.index <= 100))
-    return reading.refuse(
-        fmt::format("material \"{}\": ior (got {}, allowed (0, 100])", material.name, *material.index));
+    throw MeshFault{
+        fmt::format("material \"{}\": ior (got {}, allowed (0, 100])", material.name, *material.index)};
   note(material, "transmission", transmitted, 1);
   if (transmission->Has("transmissionTexture")) material.ignored.emplace_back("transmission texture");
   if (material.color != LinearRgb{1, 1, 1}) material.ignored.emplace_back("base colour");
-  return true;
 }
 
 // Adds a material to `reading.file.materials`. Its index `number` in the file, counted from 0, names it if it
-// has no name. False after a fault: a base colour outside [0, 1], or a refractive index outside (0, 100].
-bool read_gltf_material(const tinygltf::Material& from, std::size_t number, MeshReading& reading) {
+// has no name. Refuses a base colour outside [0, 1], and a refractive index outside (0, 100].
+void read_gltf_material(const tinygltf::Material& from, std::size_t number, MeshReading& reading) {
   FileMaterial material;
   material.name = from.name.empty() ? unnamed_gltf_material(number) : from.name;
   const tinygltf::PbrMetallicRoughness& surface = from.pbrMetallicRoughness;
   const std::vector<double>& color = surface.baseColorFactor;
   if (!std::all_of(color.begin(), color.end(), [](double x) { return x >= 0 && x <= 1; }))
-    return reading.refuse(fmt::format("material \"{}\": baseColorFactor (got [{}], allowed [0, 1])",
-                                      material.name, fmt::join(color, ", ")));
+    throw MeshFault{fmt::format("material \"{}\": baseColorFactor (got [{}], allowed [0, 1])", material.name,
+                                fmt::join(color, ", "))};
   material.color = {color.at(0), color.at(1), color.at(2)};
-  if (!read_transmission(from, material, reading)) return false;
+  read_transmission(from, material);
   const bool clear = material.index.has_value();
   note(material, "metallic", surface.metallicFactor, 0);
   note(material, "roughness", surface.roughnessFactor, clear ? 0 : 1);
@@ -88,31 +87,29 @@ bool read_gltf_material(const tinygltf::Material& from, std::size_t number, Mesh
     if (!clear || (name != "KHR_materials_transmission" && name != "KHR_materials_ior"))
       material.ignored.push_back(name);
   reading.file.materials.push_back(std::move(material));
-  return true;
 }
 
-// True if the file meets the assumptions of the library. These are:
+// Refuses a file that violates the assumptions of the library. These are:
 // - JSON nested so little that recursion ends;
 // - JSON whose length fits an int;
 // - at most one buffer without a uri, because each gets a copy of the binary data.
-bool is_well_formed(std::string_view bytes, MeshReading& reading) {
+void require_well_formed(std::string_view bytes, MeshReading& reading) {
   const auto json = gltf_json(bytes);
-  if (!json) return reading.refuse(kBadGlb);
+  if (!json) throw MeshFault{kBadGlb};
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max() ||
       json->size() > std::numeric_limits<std::int32_t>::max())
-    return reading.refuse("file too large");
-  if (valid_prefix(*json) != json->size()) return reading.refuse("its JSON is not UTF-8 text");
+    throw MeshFault{"file too large"};
+  if (valid_prefix(*json) != json->size()) throw MeshFault{"its JSON is not UTF-8 text"};
   Diagnostics diagnostics;
   const auto root =
       parse_json(std::make_shared<const SourceText>(SourceText{reading.path.string(), std::string(*json)}),
                  diagnostics, &reading.memory);
-  if (!root) return reading.refuse("malformed JSON: " + diagnostics.all()[0].message);
+  if (!root) throw MeshFault{"malformed JSON: " + diagnostics.all()[0].message};
   const JsonValue* list = root->find("buffers");
   const auto* buffers = list ? std::get_if<JsonValue::Array>(&list->value) : nullptr;
   if (buffers && std::count_if(buffers->begin(), buffers->end(),
                                [](const JsonValue& buffer) { return !buffer.find("uri"); }) > 1)
-    return reading.refuse("more than one buffer has no uri");
-  return true;
+    throw MeshFault{"more than one buffer has no uri"};
 }
 
 /// State of the library's callbacks. The library opens names as they are, because it is given no folder.
@@ -130,7 +127,7 @@ std::string same_name(const std::string& name, void* /*user*/) {
 }
 bool read_file(std::vector<unsigned char>* to, std::string* /*error*/, const std::string& name, void* user) {
   std::string bytes;
-  if (!read_named_bytes(name, bytes, static_cast<Files*>(user)->reading)) return false;
+  read_named_bytes(name, bytes, static_cast<Files*>(user)->reading);
   to->assign(bytes.begin(), bytes.end());
   return true;
 }
@@ -146,8 +143,8 @@ bool preserves_meshes(const std::string& extension) {
          extension == "KHR_texture_transform";
 }
 
-bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading) {
-  if (!is_well_formed(bytes, reading)) return false;
+void load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading) {
+  require_well_formed(bytes, reading);
   Files files{reading, model};
   tinygltf::TinyGLTF library;
   library.SetFsCallbacks({file_wanted, same_name, read_file, nullptr, &files});
@@ -167,19 +164,17 @@ bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading
     if (dynamic_cast<const std::bad_alloc*>(&fault)) throw;
     error += fault.what();
   }
-  if (!reading.fault.empty()) return false;
   // The library continues after some errors. All of them lose data, except this one, which the format allows.
   constexpr std::string_view kAllowed = "'inverseBindMatrices' property is missing in Skin.\n";
   for (std::size_t at = 0; (at = error.find(kAllowed)) != std::string::npos;)
     error.erase(at, kAllowed.size());
   constexpr std::size_t kLine = 200;  // A message may repeat a whole buffer.
   error = error.substr(0, std::min(error.find('\n'), kLine));
-  if (!error.empty()) return reading.refuse(error.substr(0, valid_prefix(error)));
-  if (!model.asset.version.starts_with("2.")) return reading.refuse("not a glTF 2.0 asset");
+  if (!error.empty()) throw MeshFault{error.substr(0, valid_prefix(error))};
+  if (!model.asset.version.starts_with("2.")) throw MeshFault{"not a glTF 2.0 asset"};
   for (const std::string& extension : model.extensionsRequired)
     if (!preserves_meshes(extension))
-      return reading.refuse(fmt::format("it requires the extension {}, which is not supported", extension));
-  return true;
+      throw MeshFault{fmt::format("it requires the extension {}, which is not supported", extension)};
 }
 
 /// A strided view of elements in a buffer of a tinygltf::Model, which must outlive it. `numbers_of` ensures
@@ -228,31 +223,29 @@ struct GltfForm {
   const char* fault;                 ///< Error message for other components.
 };
 
-/// The elements of an accessor. Nothing, after setting `reading.fault`, for one that does not exist, has
-/// another form, is sparse or empty, or exceeds its buffer.
-std::optional<GltfNumbers> numbers_of(const tinygltf::Model& model, int index, const GltfForm& form,
-                                      MeshReading& reading) {
+/// The elements of an accessor. Refuses one that does not exist, has another form, is sparse or empty, or
+/// exceeds its buffer.
+GltfNumbers numbers_of(const tinygltf::Model& model, int index, const GltfForm& form) {
   const auto refuse = [&](const std::string& what) {
-    reading.refuse(fmt::format("accessor {}: {}", index, what));
-    return std::nullopt;
+    throw MeshFault{fmt::format("accessor {}: {}", index, what)};
   };
   const auto* accessor = at(model.accessors, index);
-  if (!accessor) return refuse("it does not exist");
-  if (accessor->sparse.isSparse) return refuse("sparse accessors are not supported");
+  if (!accessor) refuse("it does not exist");
+  if (accessor->sparse.isSparse) refuse("sparse accessors are not supported");
   if (accessor->type != form.type)
-    return refuse(fmt::format("wrong type (allowed {})", form.type == TINYGLTF_TYPE_VEC3   ? "VEC3"
-                                                         : form.type == TINYGLTF_TYPE_VEC2 ? "VEC2"
-                                                                                           : "SCALAR"));
+    refuse(fmt::format("wrong type (allowed {})", form.type == TINYGLTF_TYPE_VEC3   ? "VEC3"
+                                                  : form.type == TINYGLTF_TYPE_VEC2 ? "VEC2"
+                                                                                    : "SCALAR"));
   const auto* view = at(model.bufferViews, accessor->bufferView);
   const auto* buffer = view ? at(model.buffers, view->buffer) : nullptr;
   if (!buffer || view->byteOffset > buffer->data.size() ||
       view->byteLength > buffer->data.size() - view->byteOffset)
-    return refuse("its view exceeds the buffer or does not exist");
+    refuse("its view exceeds the buffer or does not exist");
   const int stride = accessor->ByteStride(*view);
   const int width = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor->componentType)) *
                     tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(form.type));
-  if (width <= 0) return refuse("unknown component type");
-  if (accessor->count == 0) return refuse("it is empty");
+  if (width <= 0) refuse("unknown component type");
+  if (accessor->count == 0) refuse("it is empty");
   const std::size_t room = view->byteLength;
   const GltfNumbers numbers{buffer->data.data() + view->byteOffset + std::min(accessor->byteOffset, room),
                             accessor->count, static_cast<std::size_t>(std::max(stride, 0)),
@@ -260,11 +253,10 @@ std::optional<GltfNumbers> numbers_of(const tinygltf::Model& model, int index, c
   if (stride < width || accessor->byteOffset > room ||
       static_cast<std::size_t>(width) > room - accessor->byteOffset ||
       numbers.count - 1 > (room - accessor->byteOffset - static_cast<std::size_t>(width)) / numbers.stride)
-    return refuse("it needs more bytes than the buffer holds");
-  if (std::ranges::find(form.component_types, numbers.component_type) != form.component_types.end())
-    return numbers;
-  reading.refuse(form.fault);
-  return std::nullopt;
+    refuse("it needs more bytes than the buffer holds");
+  if (std::ranges::find(form.component_types, numbers.component_type) == form.component_types.end())
+    throw MeshFault{form.fault};
+  return numbers;
 }
 
 // Index of the accessor of an attribute, if the primitive has it.
@@ -280,41 +272,43 @@ constexpr double kMaxTriangles = 67108864;
 /// The meshes of all nodes so far, by material.
 using MeshesByMaterial = std::map<std::optional<std::size_t>, Mesh>;
 
-/// Reads the texture coordinates of the vertices of a primitive; none if it has none or they are not
-/// requested. v increases downwards in glTF and upwards in the result. False after a fault.
-bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                      std::vector<Imath::V2f>& coordinates, MeshReading& reading) {
+/// The texture coordinates of the vertices of a primitive; none if it has none or they are not requested. v
+/// increases downwards in glTF and upwards in the result.
+std::vector<Imath::V2f> coordinates_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                                       std::size_t vertices, const MeshReading& reading) {
+  std::vector<Imath::V2f> coordinates;
   const auto named = attribute(primitive, "TEXCOORD_0");
-  if (reading.coordinates == FileCoordinates::ignored || !named) return true;
-  const auto numbers = numbers_of(model, *named,
-                                  {TINYGLTF_TYPE_VEC2,
-                                   {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
-                                    TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_COMPONENT_TYPE_FLOAT},
-                                   "texture coordinates must be floats, bytes or shorts"},
-                                  reading);
-  if (!numbers) return false;
-  for (std::size_t i = 0; i < numbers->count; ++i) {
-    coordinates.emplace_back(numbers->fraction_at(i, 0), 1 - numbers->fraction_at(i, 1));
+  if (reading.coordinates == FileCoordinates::ignored || !named) return coordinates;
+  const GltfNumbers numbers =
+      numbers_of(model, *named,
+                 {TINYGLTF_TYPE_VEC2,
+                  {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+                   TINYGLTF_COMPONENT_TYPE_FLOAT},
+                  "texture coordinates must be floats, bytes or shorts"});
+  for (std::size_t i = 0; i < numbers.count; ++i) {
+    coordinates.emplace_back(numbers.fraction_at(i, 0), 1 - numbers.fraction_at(i, 1));
     if (!std::isfinite(coordinates.back().x) || !std::isfinite(coordinates.back().y))
-      return reading.refuse(fmt::format("texture coordinates of vertex {} are not finite", i));
+      throw MeshFault{fmt::format("texture coordinates of vertex {} are not finite", i)};
   }
-  return true;
+  if (numbers.count != vertices) throw MeshFault{"as many texture coordinates as positions are needed"};
+  return coordinates;
 }
 
-/// Reads the normals of the vertices of a primitive, transformed like the vertices. None if it has none.
-/// False after a fault.
-bool read_normals(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
-                  std::vector<Imath::V3f>& normals, MeshReading& reading) {
+/// The normals of the vertices of a primitive, transformed like the vertices; none if it has none.
+std::vector<Imath::V3f> normals_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                                   std::size_t vertices, const Imath::M44d& map) {
+  std::vector<Imath::V3f> normals;
   const auto named = attribute(primitive, "NORMAL");
-  if (!named) return true;
-  const auto numbers =
-      numbers_of(model, *named,
-                 {TINYGLTF_TYPE_VEC3, {TINYGLTF_COMPONENT_TYPE_FLOAT}, "normals must be floats"}, reading);
-  if (!numbers) return false;
+  if (!named) return normals;
+  const GltfNumbers numbers = numbers_of(
+      model, *named, {TINYGLTF_TYPE_VEC3, {TINYGLTF_COMPONENT_TYPE_FLOAT}, "normals must be floats"});
   const Placement at = placement(map);
-  for (std::size_t i = 0; i < numbers->count; ++i)
-    normals.push_back(unit_normal(normal_to_world(at, numbers->vector_at(i))));
-  return true;
+  for (std::size_t i = 0; i < numbers.count; ++i)
+    normals.push_back(unit_normal(normal_to_world(at, numbers.vector_at(i))));
+  if (numbers.count != vertices)
+    throw MeshFault{
+        fmt::format("as many normals as positions are needed (got {}, allowed {})", numbers.count, vertices)};
+  return normals;
 }
 
 // Indices of the vertices of each triangle of a primitive; empty for points and lines.
@@ -330,57 +324,45 @@ std::vector<std::array<std::size_t, 3>> corners(int mode, std::size_t count) {
 }
 
 // Adds the normals at the corners of the next triangle of the mesh. Earlier triangles without normals get
-// zero. False after a fault.
-bool add_normals(const std::array<std::size_t, 3>& triangle, std::size_t base,
-                 const std::vector<Imath::V3f>& normals, Mesh& mesh, MeshReading& reading) {
+// zero.
+void add_normals(const std::array<std::size_t, 3>& triangle, std::size_t base,
+                 const std::vector<Imath::V3f>& normals, Mesh& mesh) {
   mesh.normals.resize(mesh.triangles.size());
   auto& corners = mesh.normals.emplace_back();
   for (std::size_t i = 0; i < 3; ++i) {
     corners.at(i) = normals[triangle.at(i) - base];
     if (corners.at(i) == Imath::V3f(0))
-      return reading.refuse(fmt::format("the normal of vertex {} has no direction", triangle.at(i) - base));
+      throw MeshFault{fmt::format("the normal of vertex {} has no direction", triangle.at(i) - base)};
   }
-  return true;
 }
 
-// Adds the triangles of a primitive, transformed by `map`, to the mesh of its material. False after a fault.
-bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
+// Adds the triangles of a primitive, transformed by `map`, to the mesh of its material.
+void add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
                    MeshesByMaterial& meshes, MeshReading& reading) {
-  const auto positions =
+  const GltfNumbers positions =
       numbers_of(model, attribute(primitive, "POSITION").value_or(-1),
-                 {TINYGLTF_TYPE_VEC3, {TINYGLTF_COMPONENT_TYPE_FLOAT}, "positions must be floats"}, reading);
-  if (!positions) return false;
+                 {TINYGLTF_TYPE_VEC3, {TINYGLTF_COMPONENT_TYPE_FLOAT}, "positions must be floats"});
   std::optional<GltfNumbers> indices;
-  if (primitive.indices >= 0) {
+  if (primitive.indices >= 0)
     indices = numbers_of(model, primitive.indices,
                          {TINYGLTF_TYPE_SCALAR,
                           {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
                            TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
-                          "indices must be integers >= 0"},
-                         reading);
-    if (!indices) return false;
-  }
+                          "indices must be integers >= 0"});
   std::optional<std::size_t> material;
   if (reading.materials != FileMaterials::ignored && primitive.material >= 0)
     material = static_cast<std::size_t>(primitive.material);
   Mesh& mesh = meshes[material];
   const std::size_t base = mesh.vertices.size();
-  const auto triangles = corners(primitive.mode, indices ? indices->count : positions->count);
+  const auto triangles = corners(primitive.mode, indices ? indices->count : positions.count);
   if (static_cast<double>(mesh.triangles.size() + triangles.size()) > kMaxTriangles ||
-      static_cast<double>(base + positions->count) > kMaxTriangles)
-    return reading.refuse(fmt::format("too many triangles (allowed {})", kMaxTriangles));
-  reading.make_room(mesh.vertices, positions->count);
+      static_cast<double>(base + positions.count) > kMaxTriangles)
+    throw MeshFault{fmt::format("too many triangles (allowed {})", kMaxTriangles)};
+  reading.make_room(mesh.vertices, positions.count);
   reading.make_room(mesh.triangles, triangles.size());
-  for (std::size_t i = 0; i < positions->count; ++i) mesh.vertices.push_back(positions->vector_at(i) * map);
-  std::vector<Imath::V2f> coordinates;
-  if (!read_coordinates(model, primitive, coordinates, reading)) return false;
-  if (!coordinates.empty() && coordinates.size() != positions->count)
-    return reading.refuse("as many texture coordinates as positions are needed");
-  std::vector<Imath::V3f> normals;
-  if (!read_normals(model, primitive, map, normals, reading)) return false;
-  if (!normals.empty() && normals.size() != positions->count)
-    return reading.refuse(fmt::format("as many normals as positions are needed (got {}, allowed {})",
-                                      normals.size(), positions->count));
+  for (std::size_t i = 0; i < positions.count; ++i) mesh.vertices.push_back(positions.vector_at(i) * map);
+  const auto coordinates = coordinates_of(model, primitive, positions.count, reading);
+  const auto normals = normals_of(model, primitive, positions.count, map);
   if (!coordinates.empty()) reading.make_room(mesh.coordinates, triangles.size());
   if (!normals.empty())
     reading.make_room(mesh.normals, mesh.triangles.size() - mesh.normals.size() + triangles.size());
@@ -388,22 +370,20 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
   for (std::array<std::size_t, 3> triangle : triangles) {
     for (std::size_t& corner : triangle) {
       if (indices) corner = indices->index_at(corner);
-      if (corner >= positions->count)
-        return reading.refuse(
-            fmt::format("an index names a vertex that does not exist (got {}, allowed [0, {}])", corner,
-                        positions->count - 1));
+      if (corner >= positions.count)
+        throw MeshFault{fmt::format("an index names a vertex that does not exist (got {}, allowed [0, {}])",
+                                    corner, positions.count - 1)};
       corner += base;
     }
     if (mirror) std::swap(triangle[1], triangle[2]);
     if (!coordinates.empty())
       mesh.coordinates.push_back({coordinates[triangle[0] - base], coordinates[triangle[1] - base],
                                   coordinates[triangle[2] - base]});
-    if (!normals.empty() && !add_normals(triangle, base, normals, mesh, reading)) return false;
+    if (!normals.empty()) add_normals(triangle, base, normals, mesh);
     mesh.triangles.push_back({static_cast<std::uint32_t>(triangle[0]),
                               static_cast<std::uint32_t>(triangle[1]),
                               static_cast<std::uint32_t>(triangle[2])});
   }
-  return true;
 }
 
 // Transform of a node for row vectors: scale, then rotation, then translation; or the matrix, which the
@@ -425,9 +405,9 @@ Imath::M44d local_map(const tinygltf::Node& node) {
 
 // Adds every mesh of the nodes of the scene. Nodes form a tree; a node that is reached twice is an error,
 // because a small file could otherwise grow without bound.
-bool add_scene_meshes(const tinygltf::Model& model, MeshesByMaterial& meshes, MeshReading& reading) {
+void add_scene_meshes(const tinygltf::Model& model, MeshesByMaterial& meshes, MeshReading& reading) {
   const auto* scene = at(model.scenes, std::max(model.defaultScene, 0));
-  if (!scene) return reading.refuse("it has no scene");
+  if (!scene) throw MeshFault{"it has no scene"};
   struct Visit {
     int node;
     Imath::M44d parent;
@@ -442,38 +422,37 @@ bool add_scene_meshes(const tinygltf::Model& model, MeshesByMaterial& meshes, Me
     const Visit visit = visits.back();
     visits.pop_back();
     const auto* node = at(model.nodes, visit.node);
-    if (!node) return reading.refuse("a node does not exist");
+    if (!node) throw MeshFault{"a node does not exist"};
     if (visited[static_cast<std::size_t>(visit.node)])
-      return reading.refuse(fmt::format("node {} is reached twice", visit.node));
+      throw MeshFault{fmt::format("node {} is reached twice", visit.node)};
     visited[static_cast<std::size_t>(visit.node)] = true;
     if (node->rotation == std::vector<double>(4, 0.0))
-      return reading.refuse(fmt::format("node {}: a rotation of length 0", visit.node));
+      throw MeshFault{fmt::format("node {}: a rotation of length 0", visit.node)};
     const Imath::M44d map = local_map(*node) * visit.parent;
     if (node->mesh != -1) {
       const auto* mesh = at(model.meshes, node->mesh);
-      if (!mesh) return reading.refuse("a mesh does not exist");
+      if (!mesh) throw MeshFault{"a mesh does not exist"};
       for (const tinygltf::Primitive& primitive : mesh->primitives)
-        if (!add_primitive(model, primitive, map, meshes, reading)) return false;
+        add_primitive(model, primitive, map, meshes, reading);
     }
     push(node->children, map);
   }
-  return true;
 }
 
 }  // namespace
 
-bool read_gltf(std::string&& bytes, MeshReading& reading) {
+void read_gltf(std::string&& bytes, MeshReading& reading) {
   tinygltf::Model model;
-  if (!load(bytes, model, reading)) return false;
+  load(bytes, model, reading);
   bytes = {};
   for (const auto& [count, what] :
        {std::pair(model.lights.size(), "lights"), {model.cameras.size(), "cameras"}})
     if (count > 0) reading.ignored.push_back(fmt::format("its {} are not read ({} of them)", what, count));
   MeshesByMaterial meshes;
-  if (!add_scene_meshes(model, meshes, reading)) return false;
+  add_scene_meshes(model, meshes, reading);
   if (reading.materials != FileMaterials::ignored) {
     for (std::size_t i = 0; i < model.materials.size(); ++i)
-      if (!read_gltf_material(model.materials[i], i, reading)) return false;
+      read_gltf_material(model.materials[i], i, reading);
     if (meshes.contains(std::nullopt)) {  // The default material of the format.
       reading.file.materials.push_back({kDefaultGltfMaterial, {1, 1, 1}, std::nullopt, {"metallic 1"}});
     }
@@ -488,11 +467,10 @@ bool read_gltf(std::string&& bytes, MeshReading& reading) {
     if (!mesh.normals.empty()) mesh.normals.resize(mesh.triangles.size());
     const std::size_t last = reading.file.materials.size();
     const bool wanted = reading.materials != FileMaterials::ignored;
-    if (wanted && material && *material >= last) return reading.refuse("a material does not exist");
+    if (wanted && material && *material >= last) throw MeshFault{"a material does not exist"};
     reading.file.submeshes.push_back(
         {std::move(mesh), wanted ? std::optional(material.value_or(last - 1)) : std::nullopt});
   }
-  return true;
 }
 
 }  // namespace abbe

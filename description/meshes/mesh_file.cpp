@@ -25,10 +25,10 @@ bool is_packed_ply(const std::filesystem::path& path) {
   return extension_of(path) == ".gz" && extension_of(path.stem()) == ".ply";
 }
 
-using MeshReader = bool (*)(std::string&&, MeshReading&);
+using MeshReader = void (*)(std::string&&, MeshReading&);
 
 // The reader for the extension of a file; nullptr for an unknown extension.
-MeshReader reader_of(const std::filesystem::path& path) {
+MeshReader mesh_reader_of(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   if (extension == ".obj") return read_obj;
   if (extension == ".gltf" || extension == ".glb") return read_gltf;
@@ -62,7 +62,13 @@ void complete_normals(Mesh& mesh) {
   }
 }
 
-// Reads the bytes of a regular file; a .ply.gz is decompressed. Returns an error message, if there is one.
+}  // namespace
+
+bool may_have_materials(const std::filesystem::path& path) {
+  const MeshReader reader = mesh_reader_of(path);
+  return reader == read_obj || reader == read_gltf;
+}
+
 std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, std::string& bytes,
                                            MemoryReservation& memory) {
   if (auto fault = file_fault(path)) return fault;
@@ -78,25 +84,17 @@ std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, st
   return std::nullopt;
 }
 
-}  // namespace
-
-bool may_have_materials(const std::filesystem::path& path) {
-  const MeshReader reader = reader_of(path);
-  return reader == read_obj || reader == read_gltf;
-}
-
-bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading) {
+void read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading) {
   const std::filesystem::path relative(name);
   const bool leaves_folder = relative.is_absolute() || name.find("://") != std::string::npos ||
                              name.find('\\') != std::string::npos || name.find('\0') != std::string::npos ||
                              std::find(relative.begin(), relative.end(), "..") != relative.end();
   if (name.empty() || leaves_folder)
-    return reading.refuse(fmt::format("it may name only files in its folder or below (got \"{}\")", name));
+    throw MeshFault{fmt::format("it may name only files in its folder or below (got \"{}\")", name)};
   const std::filesystem::path path = reading.path.parent_path() / relative;
   if (const auto fault = read_mesh_bytes(path, bytes, reading.memory))
-    return reading.refuse(fmt::format("\"{}\", which it names: {}", name, *fault));
+    throw MeshFault{fmt::format("\"{}\", which it names: {}", name, *fault)};
   reading.file.others.push_back(path);
-  return true;
 }
 
 std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMaterials materials,
@@ -106,14 +104,18 @@ std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMa
     diagnostics.error(where, fmt::format("mesh \"{}\": {}", path.string(), message), ErrorCode::input);
     return std::nullopt;
   };
-  MeshReading reading{path, materials, coordinates, {}, {}, {}, {inputs, 0}};
+  MeshReading reading{path, materials, coordinates, {}, {}, {inputs, 0}};
   std::string bytes;
   if (const auto fault = read_mesh_bytes(path, bytes, reading.memory)) return refuse(*fault);
-  const MeshReader read = reader_of(path);
+  const MeshReader read = mesh_reader_of(path);
   if (read == nullptr)
     return refuse(fmt::format("unknown format (got \"{}\", allowed .ply, .ply.gz, .obj, .gltf, .glb)",
                               path.extension().string()));
-  if (!read(std::move(bytes), reading)) return refuse(reading.fault);
+  try {
+    read(std::move(bytes), reading);
+  } catch (const MeshFault& fault) {
+    return refuse(fault.text);
+  }
   if (reading.file.submeshes.empty()) return refuse("no faces");
   for (MeshFile::Submesh& part : reading.file.submeshes)
     if (!check_mesh(part.mesh, where, diagnostics)) return std::nullopt;

@@ -17,21 +17,20 @@ namespace abbe {
 /// Indices of the three corners of a triangle, counted from 0.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// The state of reading a mesh file. A reader fills `file`, or describes what is wrong in `fault`.
+/// Thrown by readers for a file that they refuse, with an error message without the path.
+struct MeshFault {
+  std::string text;
+};
+
+/// The state of reading a mesh file. A reader fills `file`, or throws MeshFault.
 struct MeshReading {
   std::filesystem::path path;
   FileMaterials materials;
   FileCoordinates coordinates;
   MeshFile file;
-  std::string fault;                 ///< Error message without the path; empty if there is none.
   std::vector<std::string> ignored;  ///< Content of the file that is not read, in words, for warnings.
   MemoryReservation memory;          ///< Memory of the data, until the file has been read.
 
-  /// Records the fault. Returns false, so that a reader can return the result.
-  bool refuse(std::string what) {
-    fault = std::move(what);
-    return false;
-  }
   /// Reserves room for `more` further elements in `list`, and counts the memory before it is allocated.
   /// Throws Error{resource} if the memory limit is exceeded.
   template <typename T>
@@ -44,22 +43,26 @@ struct MeshReading {
 };
 
 // Each reader takes the whole contents `bytes` of a file and adds its submeshes and materials to
-// `reading.file`. It returns false after setting `reading.fault`. It throws Error{resource} if the memory
-// limit is exceeded. The vertices are not yet checked; see `check_mesh`.
+// `reading.file`. It throws MeshFault, and Error{resource} if the memory limit is exceeded. The vertices are
+// not yet checked; see `check_mesh`.
 
 /// Reads PLY, ASCII or binary, uncompressed.
-[[nodiscard]] bool read_ply(std::string&& bytes, MeshReading& reading);
+void read_ply(std::string&& bytes, MeshReading& reading);
 /// Reads OBJ and, if materials are requested, the .mtl files that it names.
-[[nodiscard]] bool read_obj(std::string&& bytes, MeshReading& reading);
+void read_obj(std::string&& bytes, MeshReading& reading);
 /// Reads glTF 2.0, as JSON or GLB, and the buffer files that it names. Node transforms are applied; a mirror
 /// reverses the winding of triangles.
-[[nodiscard]] bool read_gltf(std::string&& bytes, MeshReading& reading);
+void read_gltf(std::string&& bytes, MeshReading& reading);
 
+/// Reads the bytes of a regular file of at most 4 GiB into `bytes`, which must be empty; a .ply.gz is
+/// decompressed. Returns nothing on success, otherwise an error message without the path. `memory` counts the
+/// bytes first. Throws Error{resource} if the memory limit is exceeded.
+[[nodiscard]] std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path,
+                                                         std::string& bytes, MemoryReservation& memory);
 /// Reads the bytes of another file that the mesh file names into `bytes`, which must be empty, and adds its
-/// path to `reading.file.others`. `name` is relative to the folder of the mesh file. False after setting
-/// `reading.fault`, for a file outside that folder and its subfolders, and for one that cannot be read or
-/// exceeds 4 GiB.
-[[nodiscard]] bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading);
+/// path to `reading.file.others`. `name` is relative to the folder of the mesh file. Throws MeshFault for a
+/// file outside that folder and its subfolders, and for one that cannot be read or exceeds 4 GiB.
+void read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading);
 
 /// Cuts a polygon of n >= 3 corners into n - 2 triangles with its winding, which replace the contents of
 /// `triangles`. The result is a fan around the first corner if no triangle of the fan turns back, as in every

@@ -76,9 +76,6 @@ void join_continued_lines(std::string& bytes) {
   bytes.resize(written);
 }
 
-/// Thrown through the library, which has no other way to stop. The fault is stored in the reading.
-struct Refused {};
-
 /// The faces of a material.
 struct Faces {
   std::vector<Triangle> triangles;
@@ -114,8 +111,7 @@ struct Obj {
   }
   [[noreturn]] void refuse(const std::string& what) const {
     const std::string_view text = read();
-    reading.refuse(fmt::format("line {}: {}", std::count(text.begin(), text.end(), '\n') + 1, what));
-    throw Refused();
+    throw MeshFault{fmt::format("line {}: {}", std::count(text.begin(), text.end(), '\n') + 1, what)};
   }
 };
 
@@ -306,8 +302,8 @@ std::vector<std::string> ignored_keys(const tinyobj::material_t& m) {
   return words;
 }
 
-// True if every Kd is a colour. Checked here because the library reads malformed numbers as 0.
-bool check_colors(const std::string& name, const std::string& text, MeshReading& reading) {
+// Refuses a Kd that is no colour. Checked here because the library reads malformed numbers as 0.
+void check_colors(const std::string& name, const std::string& text) {
   std::istringstream lines(text);
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -317,10 +313,9 @@ bool check_colors(const std::string& name, const std::string& text, MeshReading&
     const std::string rest = split(std::string_view(line).substr(key + 2), '\n')[0];
     const auto color = numbers<3>(rest);
     if (!color || !std::all_of(color->begin(), color->end(), [](double x) { return x >= 0 && x <= 1; }))
-      return reading.refuse(
-          fmt::format("\"{}\" line {}: Kd (got {}, allowed three of [0, 1])", name, number, rest));
+      throw MeshFault{
+          fmt::format("\"{}\" line {}: Kd (got {}, allowed three of [0, 1])", name, number, rest)};
   }
-  return true;
 }
 
 // Files that an `mtllib` line names: the whole line if such a file exists, because names may contain blanks;
@@ -355,7 +350,8 @@ class MaterialFiles : public tinyobj::MaterialReader {
             std::map<std::string, int>* numbers, std::string* warning, std::string* error) {
     MeshReading& reading = obj_.reading;
     std::string text;
-    if (!read_named_bytes(name, text, reading) || !check_colors(name, text, reading)) throw Refused();
+    read_named_bytes(name, text, reading);
+    check_colors(name, text);
     std::istringstream stream(std::move(text));
     tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
     for (std::size_t i = reading.file.materials.size(); i < materials->size(); ++i) {
@@ -391,7 +387,7 @@ Mesh compact(const std::vector<Imath::V3d>& vertices, Faces faces, MeshReading& 
 
 }  // namespace
 
-bool read_obj(std::string&& bytes, MeshReading& reading) {
+void read_obj(std::string&& bytes, MeshReading& reading) {
   erase_comments(bytes);
   join_continued_lines(bytes);
   Obj obj{reading, std::istringstream(std::move(bytes)), {}, {}, {}, {}, {}};
@@ -403,11 +399,7 @@ bool read_obj(std::string&& bytes, MeshReading& reading) {
   take.index_cb = take_face;
   if (reading.coordinates == FileCoordinates::wanted) take.texcoord_cb = take_coordinates;
   if (wanted) take.usemtl_cb = use_material;
-  try {
-    tinyobj::LoadObjWithCallback(obj.stream, take, &obj, wanted ? &files : nullptr);
-  } catch (const Refused&) {
-    return false;
-  }
+  tinyobj::LoadObjWithCallback(obj.stream, take, &obj, wanted ? &files : nullptr);
   for (auto& [material, faces] : obj.faces) {
     if (faces.coordinates.size() < faces.triangles.size()) faces.coordinates.clear();
     if (!faces.normals.empty()) faces.normals.resize(faces.triangles.size());
@@ -417,11 +409,10 @@ bool read_obj(std::string&& bytes, MeshReading& reading) {
     reading.file.submeshes.push_back({{std::move(obj.vertices), std::move(faces.triangles),
                                        std::move(faces.coordinates), std::move(faces.normals)},
                                       material});
-    return true;
+    return;
   }
   for (auto& [material, faces] : obj.faces)
     reading.file.submeshes.push_back({compact(obj.vertices, std::move(faces), reading), material});
-  return true;
 }
 
 }  // namespace abbe

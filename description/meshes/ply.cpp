@@ -150,34 +150,33 @@ void take_memory(std::size_t vertices, std::size_t faces, std::size_t bytes, Mes
                                                     std::min(faces, bytes) * kFace);
 }
 
-// Reads the vertices and, if the header has faces, the polygons. False after a fault.
-bool read(std::istream& stream, const Header& header, Points& points, Polygons& polygons,
-          MeshReading& reading) {
+// Reads the vertices and, if the header has faces, the polygons.
+void read(std::istream& stream, const Header& header, Points& points, Polygons& polygons) {
   stream.imbue(std::locale::classic());
   try {
-    if (CGAL::IO::read_PLY(stream, points, polygons, CGAL::parameters::verbose(false))) return true;
+    if (CGAL::IO::read_PLY(stream, points, polygons, CGAL::parameters::verbose(false))) return;
   } catch (const std::logic_error&) {  // Thrown by an assertion, or for a list of negative length.
-    return reading.refuse("malformed PLY");
+    throw MeshFault{"malformed PLY"};
   }
   std::string word;
   stream.clear();
   if (points.size() < header.vertices && stream >> word)
-    return reading.refuse(
-        fmt::format("vertex {} needs finite numbers (got \"{}\")", points.size(), word.substr(0, 20)));
-  return reading.refuse("malformed PLY, or the header declares more than the file holds");
+    throw MeshFault{
+        fmt::format("vertex {} needs finite numbers (got \"{}\")", points.size(), word.substr(0, 20))};
+  throw MeshFault{"malformed PLY, or the header declares more than the file holds"};
 }
 
 // Sets the normals at the corners of the triangles to those of their vertices.
-bool read_normals(std::string&& bytes, const Header& header, Mesh& mesh, MeshReading& reading) {
+void read_normals(std::string&& bytes, const Header& header, Mesh& mesh, MeshReading& reading) {
   if (!header.has("nx") || !header.has("ny") || !header.has("nz"))
-    return reading.refuse("a normal needs nx, ny and nz");
+    throw MeshFault{"a normal needs nx, ny and nz"};
   take_memory(header.vertices, 0, bytes.size(), reading);
   reading.make_room(mesh.normals, mesh.triangles.size());
   call_normals_positions(bytes);
   std::istringstream stream(std::move(bytes));
   Points given;
   Polygons none;
-  if (!read(stream, header, given, none, reading)) return false;
+  read(stream, header, given, none);
   mesh.normals.resize(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -186,12 +185,11 @@ bool read_normals(std::string&& bytes, const Header& header, Mesh& mesh, MeshRea
       Imath::V3f& normal = mesh.normals[i].at(corner);
       normal = unit_normal({given[vertex].x(), given[vertex].y(), given[vertex].z()});
       if (normal == Imath::V3f(0))
-        return reading.refuse(fmt::format("the normal of vertex {} has no direction", vertex));
+        throw MeshFault{fmt::format("the normal of vertex {} has no direction", vertex)};
     }
-  return true;
 }
 
-bool cut_polygons(const Polygons& polygons, Mesh& mesh, MeshReading& reading) {
+void cut_polygons(const Polygons& polygons, Mesh& mesh) {
   std::vector<Imath::V3d> corners;
   std::vector<Triangle> cut;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
@@ -199,38 +197,35 @@ bool cut_polygons(const Polygons& polygons, Mesh& mesh, MeshReading& reading) {
     corners.clear();
     for (const std::uint32_t vertex : polygons[i])  // A vertex that does not exist is reported later.
       corners.push_back(vertex < mesh.vertices.size() ? mesh.vertices[vertex] : Imath::V3d(NAN));
-    if (const auto fault = cut_polygon(corners, cut))
-      return reading.refuse(fmt::format("face {}: {}", i, *fault));
+    if (const auto fault = cut_polygon(corners, cut)) throw MeshFault{fmt::format("face {}: {}", i, *fault)};
     add_corners(polygons[i], cut, mesh.triangles);
   }
-  return true;
 }
 
 }  // namespace
 
-bool read_ply(std::string&& bytes, MeshReading& reading) {
+void read_ply(std::string&& bytes, MeshReading& reading) {
   std::istringstream stream(std::move(bytes));
   stream.imbue(std::locale::classic());
   const auto header = read_header(stream);
-  if (!header) return reading.refuse("malformed PLY header, or lists counted in 32 bits");
-  if (const auto fault = type_fault(*header)) return reading.refuse("PLY header: " + *fault);
+  if (!header) throw MeshFault{"malformed PLY header, or lists counted in 32 bits"};
+  if (const auto fault = type_fault(*header)) throw MeshFault{"PLY header: " + *fault};
   take_memory(header->vertices, header->faces, stream.view().size(), reading);
   stream.seekg(0);
   Points points;
   Polygons polygons;
-  if (!read(stream, *header, points, polygons, reading)) return false;
-  if (points.size() > std::numeric_limits<std::uint32_t>::max()) return reading.refuse("too many vertices");
+  read(stream, *header, points, polygons);
+  if (points.size() > std::numeric_limits<std::uint32_t>::max()) throw MeshFault{"too many vertices"};
   Mesh mesh;
   reading.make_room(mesh.vertices, points.size());
   for (const auto& point : points) mesh.vertices.emplace_back(point.x(), point.y(), point.z());
   std::size_t triangles = 0;
   for (const auto& polygon : polygons) triangles += std::max(polygon.size(), std::size_t{2}) - 2;
   reading.make_room(mesh.triangles, triangles);
-  if (!cut_polygons(polygons, mesh, reading)) return false;
-  if (mesh.triangles.empty()) return reading.refuse("no faces");
-  if (header->has_normals() && !read_normals(std::move(stream).str(), *header, mesh, reading)) return false;
+  cut_polygons(polygons, mesh);
+  if (mesh.triangles.empty()) throw MeshFault{"no faces"};
+  if (header->has_normals()) read_normals(std::move(stream).str(), *header, mesh, reading);
   reading.file.submeshes.push_back({std::move(mesh), std::nullopt});
-  return true;
 }
 
 }  // namespace abbe
