@@ -118,8 +118,7 @@ inline constexpr double kDefaultFNumber = 4;
 [[nodiscard]] std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor,
                                           LoadContext& context);
 /// Moves `camera` from its described pose to that at which the shutter opens, and sets its motion from then
-/// on. `context.open_s` and `context.span_s` must be set. Reports a probe, which cannot move, and the errors
-/// of a motion; the camera is then not usable or at rest.
+/// on. `context.open_s` and `context.span_s` must be set. Reports a probe, which cannot move.
 void set_moving(const spec::Motion& spec, Camera& camera, LoadContext& context);
 
 }  // namespace abbe::description

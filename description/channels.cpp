@@ -38,24 +38,18 @@ struct Detector {
   double exposure_s = 1;
 };
 
-// Adds a filter to the stack: a curve, or a filter that shifts with the angle. False after an error.
-bool add_filter(const spec::Filter& filter, FilterStack& stack, LoadContext& context) {
-  if (const auto* fixed = std::get_if<spec::Curve>(&filter)) {
-    const auto curve = build(*fixed, kTransmittanceUse, context);
-    if (curve) stack.fixed = product(stack.fixed, *curve);
-    return curve.has_value();
-  }
-  const auto& shifting = std::get<spec::InterferenceFilter>(filter);
-  auto curve = build(shifting.transmittance, kTransmittanceUse, context);
-  if (!curve) return false;
-  stack.shifting.push_back({*std::move(curve), shifting.effective_index});
-  return true;
-}
-
+// Builds filters in series: curves, and filters that shift with the angle. Nothing after an error.
 std::optional<FilterStack> build_filters(const spec::Filters& filters, LoadContext& context) {
   FilterStack stack;
   bool complete = true;
-  for (const spec::Filter& filter : filters) complete = add_filter(filter, stack, context) && complete;
+  for (const spec::Filter& filter : filters) {
+    const auto* fixed = std::get_if<spec::Curve>(&filter);
+    const auto* shifting = std::get_if<spec::InterferenceFilter>(&filter);
+    auto curve = build(fixed ? *fixed : shifting->transmittance, kTransmittanceUse, context);
+    complete = complete && curve;
+    if (fixed && curve) stack.fixed = product(stack.fixed, *curve);
+    if (shifting && curve) stack.shifting.push_back({*std::move(curve), shifting->effective_index});
+  }
   return complete ? std::optional(std::move(stack)) : std::nullopt;
 }
 
@@ -272,20 +266,6 @@ void build_filtered(const spec::Sensor& spec, Sensor& sensor, LoadContext& conte
   }
 }
 
-// Also reports tables that end within the range in which the other factors of a channel are not negligible.
-void build_checked(const spec::Sensor& spec, Sensor& sensor, LoadContext& context) {
-  std::vector<PartialTable> partial_tables;
-  context.coverage.partial_tables = &partial_tables;
-  build_filtered(spec, sensor, context);
-  context.coverage.partial_tables = nullptr;
-  if (partial_tables.empty()) return;
-  Diagnostics discarded;
-  LoadContext extrapolating = extrapolating_context(context, discarded);
-  Sensor extrapolated;
-  build_filtered(spec, extrapolated, extrapolating);
-  check_table_range(partial_tables, Curve(1.0), extrapolated.channels, context);
-}
-
 // Reports settings that exclude the measurement of all Stokes components.
 void check_stokes(const spec::Sensor& spec, const Sensor& sensor, LoadContext& context) {
   const auto refuse_with = [&](bool present, const char* what) {
@@ -300,7 +280,18 @@ void check_stokes(const spec::Sensor& spec, const Sensor& sensor, LoadContext& c
 }  // namespace
 
 void build_channels(const spec::Sensor& spec, Sensor& sensor, LoadContext& context) {
-  build_checked(spec, sensor, context);
+  std::vector<PartialTable> partial_tables;
+  context.coverage.partial_tables = &partial_tables;
+  build_filtered(spec, sensor, context);
+  context.coverage.partial_tables = nullptr;
+  // Tables may end within the range in which the other factors of a channel are not negligible.
+  if (!partial_tables.empty()) {
+    Diagnostics discarded;
+    LoadContext extrapolating = extrapolating_context(context, discarded);
+    Sensor extrapolated;
+    build_filtered(spec, extrapolated, extrapolating);
+    check_table_range(partial_tables, Curve(1.0), extrapolated.channels, context);
+  }
   if (!spec.stokes || !spec.stokes->value) return;
   check_stokes(spec, sensor, context);
   if (!any_analyser(sensor.channels) && !spec.mosaic)

@@ -122,7 +122,7 @@ Curve extinction(const Curve& absorption_per_m) {
   return product(absorption_per_m, per_alpha);
 }
 
-std::optional<Ior> table_ior(const spec::TableIor& spec, LoadContext& context) {
+std::optional<NamedIndex> table_ior(const spec::TableIor& spec, LoadContext& context) {
   const auto curve = [&](const std::vector<double>& values) {
     spec::Curve table;
     table.where = spec.where;
@@ -133,12 +133,13 @@ std::optional<Ior> table_ior(const spec::TableIor& spec, LoadContext& context) {
   const auto n = curve(spec.n);
   const auto k = spec.k ? curve(*spec.k) : Curve();
   if (!n || !k) return std::nullopt;
-  return Ior{"of a table", RefractiveIndex(*n, *k, IndexMedium::air, spec.wavelength_nm.front(),
-                                           spec.wavelength_nm.back())};
+  return NamedIndex{
+      "of a table", "",
+      RefractiveIndex(*n, *k, IndexMedium::air, spec.wavelength_nm.front(), spec.wavelength_nm.back())};
 }
 
-Ior constant_ior(double n, double k) {
-  return {k > 0 ? fmt::format("{} + {}i", n, k) : fmt::format("{}", n), RefractiveIndex(n, k)};
+NamedIndex constant_ior(double n, double k) {
+  return {k > 0 ? fmt::format("{} + {}i", n, k) : fmt::format("{}", n), "", RefractiveIndex(n, k)};
 }
 
 Imath::V2f widths(double alpha) {
@@ -209,20 +210,17 @@ void add_layers(const std::vector<spec::LayerEntry>& entries, Films& films, Load
 
 }  // namespace
 
-std::optional<Ior> build(const spec::Ior& spec, LoadContext& context) {
+std::optional<NamedIndex> build(const spec::Ior& spec, LoadContext& context) {
   if (const auto* n = std::get_if<double>(&spec.value)) return constant_ior(*n, 0);
   const auto* metal = std::get_if<spec::MetalIor>(&spec.value);
   if (const auto* constant = metal ? metal : std::get_if<spec::ConstantIor>(&spec.value))
     return constant_ior(constant->n, constant->k);
   if (const auto* table = std::get_if<spec::TableIor>(&spec.value)) return table_ior(*table, context);
   const auto name = context.table(std::get<std::string>(spec.value), spec.where);
-  if (!name) return std::nullopt;
-  auto named = load_index(*name, spec.where, context.diagnostics);
-  if (!named) return std::nullopt;
-  return Ior{std::move(named->name), std::move(named->index)};
+  return name ? load_index(*name, spec.where, context.diagnostics) : std::nullopt;
 }
 
-std::optional<Ior> build(const spec::TintedIor& spec, LoadContext& context) {
+std::optional<NamedIndex> build(const spec::TintedIor& spec, LoadContext& context) {
   auto ior = build(spec.ior, context);
   if (!ior || !spec.absorption_per_m) return ior;
   if (ior->index.absorbing())

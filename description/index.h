@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "description/curve.h"
+#include "materials/index/catalogue.h"
 #include "materials/material.h"
 
 // Interfaces of media: refractive indices, coatings and roughness, as scene files describe them. Indices are
@@ -71,16 +72,12 @@ struct Roughness : schema::Located<std::variant<double, std::array<double, 2>, F
 
 namespace abbe::description {
 
-/// A refractive index and its name for messages: that of its table, or its numbers.
-struct Ior {
-  std::string name;
-  RefractiveIndex index;
-};
-/// Builds a refractive index; nothing after an error, such as an unknown name.
-[[nodiscard]] std::optional<Ior> build(const spec::Ior& ior, LoadContext& context);
+/// Builds a refractive index; nothing after an error, such as an unknown name. Its name for messages is that
+/// of its table, or its numbers.
+[[nodiscard]] std::optional<NamedIndex> build(const spec::Ior& ior, LoadContext& context);
 /// Builds a refractive index whose k follows from the absorption coefficient alpha: k = alpha lambda/(4 pi).
 /// Reports an absorption coefficient with an index that already has a k.
-[[nodiscard]] std::optional<Ior> build(const spec::TintedIor& ior, LoadContext& context);
+[[nodiscard]] std::optional<NamedIndex> build(const spec::TintedIor& ior, LoadContext& context);
 /// Builds a coating, with its layers from the outside inwards; empty for an empty list. Reports more than 256
 /// layers or 16 materials, and the errors of indices; layers with an error are missing in the result.
 [[nodiscard]] Coating build(const std::vector<spec::LayerEntry>& layers, LoadContext& context);

@@ -71,8 +71,8 @@ namespace abbe::description {
 ///   clear aperture.
 /// Glasses are looked up in the catalogues that the file names, else in all catalogues, with a warning.
 /// Coatings, vignetting factors and weights of wavelengths are ignored with a warning. Any other data that
-/// would change the light paths is an error at its line. Lengths of the result are in mm, whatever the file's
-/// unit. Errors and warnings go to `diagnostics`; returns nothing if they then have an error.
+/// would change the light paths is an error. Lengths of the result are in mm. Returns nothing if
+/// `diagnostics` then have an error.
 [[nodiscard]] std::optional<spec::Lens> read_zemax(const std::filesystem::path& file,
                                                    Diagnostics& diagnostics);
 

@@ -1,6 +1,5 @@
 #include "description/load.h"
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -62,10 +61,9 @@ bool check_version(const JsonValue& root, Diagnostics& diagnostics) {
   const JsonValue* json = root.find("abbe");
   const auto* version = json ? std::get_if<double>(&json->value) : nullptr;
   if (!version || *version == spec::kFormatVersion) return true;
-  const std::string_view what = *version > spec::kFormatVersion ? "future version of the scene format"
-                                                                : "unknown version of the scene format";
-  diagnostics.error(json->where,
-                    fmt::format("{} (got {}, allowed {})", what, *version, spec::kFormatVersion));
+  diagnostics.error(json->where, fmt::format("{} version of the scene format (got {}, allowed {})",
+                                             *version > spec::kFormatVersion ? "future" : "unknown", *version,
+                                             spec::kFormatVersion));
   return false;
 }
 
@@ -108,7 +106,6 @@ bool read(const std::shared_ptr<const SourceText>& source, std::span<const Overr
 }
 
 }  // namespace
-
 }  // namespace description
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides,

@@ -1,6 +1,5 @@
 #include "description/material.h"
 
-#include <cmath>
 #include <memory>
 #include <utility>
 

@@ -171,8 +171,11 @@ namespace abbe::description {
 // limit of `context.inputs` is exceeded.
 
 /// Adds all materials to `scene.materials`, in their order, and their indices to `context.materials`. A
-/// material with an error becomes black, so that references to it cause no second error. Also reports a
-/// priority of a material without a medium inside, and a relief of a medium without a surface.
+/// material with an error becomes black, so that references to it cause no second error. In addition to
+/// errors of the models, reports:
+/// - mixtures of mixtures or of materials with a medium inside, an axis or a relief, and weights above 1;
+/// - a priority of a material without a medium inside, and a relief of a medium without a surface;
+/// - images of reliefs that cannot be read, have other channels or normals that do not point outward.
 void build_materials(const spec::Materials& materials, LoadContext& context, Scene& scene);
 /// Builds the model of a material; nothing after an error, and for std::monostate. A mixture is still without
 /// its components. Priority and relief are not built. Angles are converted to radians, lengths to metres.
@@ -186,18 +189,15 @@ void build_materials(const spec::Materials& materials, LoadContext& context, Sce
 /// represented.
 [[nodiscard]] std::uint32_t add_file_material(const FileMaterial& material, const std::string& file,
                                               const SourcePosition& at, LoadContext& context, Scene& scene);
-/// Index in `scene.materials` of the material of lights that name none, added at the first call: diffuse with
-/// reflectance 0.
+/// Index in `scene.materials` of the black material of lights that name none, added at the first call.
 [[nodiscard]] std::uint32_t black_material(LoadContext& context, Scene& scene);
 
-/// Builds the medium inside a shape, with coefficients in 1/m and without a grid. `absorption` is in 1/m; 0
-/// if absent. Warns of a phase function without scattering. Reports the errors of its curves; returns nothing
-/// after an error.
+/// Builds the medium inside a shape, with coefficients in 1/m (0 if absent) and without a grid. Warns of a
+/// phase function without scattering. Returns nothing after an error of its curves.
 [[nodiscard]] std::optional<Medium> build(const spec::Scattering& scattering,
                                           const std::optional<spec::Curve>& absorption, LoadContext& context);
-/// Reads a grid of densities; positions in metres. Reports a file that cannot be read, another number of axes
-/// than 3, an axis of fewer than 2 nodes, a density outside [0, 1e9] and an empty box. Returns nothing after
-/// an error.
+/// Reads a grid of densities; positions in metres. Returns nothing after an error: a file that cannot be
+/// read, other than 3 axes of 2 nodes or more, a density outside [0, 1e9], or an empty box.
 [[nodiscard]] std::optional<PlacedGrid> build(const spec::Grid& grid, LoadContext& context);
 
 }  // namespace abbe::description

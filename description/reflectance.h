@@ -66,15 +66,13 @@ struct TextureFile {
                                                             std::span<const std::string> channels,
                                                             const Encoding& encoding, LoadContext& context);
 
-/// Makes a texture of texels with `channels` values each, in the order of `read_texels`, with the size and
-/// mapping of `file`.
+/// Texture of texels from `read_texels` with `channels` values each, and the size and mapping of `file`.
 [[nodiscard]] TextureImage texture_image(const TextureFile& file, std::size_t channels,
                                          std::vector<float> texels);
 
-/// Builds a reflectance, with values in [0, 1]. Reports values outside that range, of a curve or a texel;
-/// those of a texel that exceed it by at most 1e-3 are clamped with a warning. Warns that RGB values do not
-/// determine a spectrum. Returns nothing after an error. Throws Error{resource} if the memory limit is
-/// exceeded.
+/// Builds a reflectance; nothing after an error. Reports values outside [0, 1]; those of a texel that exceed
+/// it by at most 1e-3 are clamped with a warning. Warns that RGB values do not determine a spectrum. Throws
+/// Error{resource} if the memory limit is exceeded.
 [[nodiscard]] std::optional<SpectralTexture> build(const spec::Reflectance& reflectance,
                                                    LoadContext& context);
 

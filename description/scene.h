@@ -67,8 +67,8 @@ namespace abbe::description {
 /// Error{input} for an unreadable environment image.
 [[nodiscard]] abbe::Scene build(const spec::Scene& scene, LoadContext& context, const Meter* meter = nullptr);
 /// Builds the meters of the scene in the order of the file, with lengths in metres, and sets
-/// `context.unit_m`. Reports every error to `context.diagnostics`; a meter whose surface has an error is left
-/// out.
+/// `context.unit_m`. Reports every error to `context.diagnostics`; leaves out a meter whose surface has an
+/// error.
 [[nodiscard]] std::vector<Meter> build_meters(const spec::Scene& scene, LoadContext& context);
 
 }  // namespace abbe::description

@@ -80,7 +80,7 @@ struct Sensor {
   std::optional<Curve> quantum_efficiency;  ///< Electrons per photon, in [0, 10], a factor of every channel.
   /// Electrons per photon of the most sensitive channel at its maximum, which sets a common scale.
   std::optional<schema::Located<double>> peak_quantum_efficiency;
-  /// The same scale, as electrons per lx s of daylight (D55) for a pixel of that channel.
+  /// Sets the same scale, by electrons per lx s of daylight (D55).
   std::optional<schema::Located<double>> electrons_per_lx_s;
   std::optional<schema::Located<Filters>> filters;  ///< Filters in series before all channels.
   std::optional<Curve> lens_transmission;           ///< Transmittance of the lens, in [0, 1.05]; 1 if absent.

@@ -28,8 +28,8 @@ py::array_t<double> matrix_of(const CameraProfile& profile) {
   return rows;
 }
 
-// Per channel an array over codes: the code as a fraction of the largest, the exposure, and the bounds of its
-// 95 % interval.
+// Arrays by channel. The rows are codes; the columns are the code as a fraction of the largest, the exposure,
+// and the bounds of its 95 % interval.
 py::dict curves_of(const std::vector<ChannelResponse>& responses) {
   py::dict curves;
   for (const ChannelResponse& response : responses) {

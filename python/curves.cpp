@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include "calibration/chart/delta_e.h"

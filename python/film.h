@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 
 #include <pybind11/numpy.h>
@@ -13,15 +12,14 @@
 
 namespace abbe::python {
 
-/// A film in Python. It has the exact sums if it was rendered, merged or read from a part, and the image that
-/// its file contains. All functions except the constructors require the GIL.
+/// A film in Python: the image that its file contains and, if it was rendered, merged or read from a part,
+/// the exact sums. All functions except the constructors require the GIL.
 class FilmHandle {
  public:
   explicit FilmHandle(RenderPart part);
   explicit FilmHandle(Image image);
 
-  /// Content of the film's file, computed once from the exact sums. The reference is valid as long as the
-  /// film.
+  /// Content of the film's file, computed once from the exact sums.
   [[nodiscard]] const Image& image() const;
   /// Exact sums; nothing for a film read from an image.
   [[nodiscard]] const std::optional<RenderPart>& part() const { return part_; }
@@ -32,8 +30,7 @@ class FilmHandle {
   [[nodiscard]] std::vector<std::string> channels() const;
   /// Read-only float32 array of rows, columns and `channels`, made once. None for an image without channels.
   [[nodiscard]] pybind11::object array() const;
-  /// Variances of the pixel means in the same layout and the squared unit. None if the film does not record
-  /// them or they are unknown.
+  /// Variances of the pixel means in the same layout and the squared unit; None if they are unknown.
   [[nodiscard]] pybind11::object variance() const;
 
  private:
@@ -43,8 +40,8 @@ class FilmHandle {
   mutable pybind11::object variance_;
 };
 
-/// Read-only float32 array of rows from the top, columns and the planes called `names`, in their order. None
-/// if the image lacks one of them or `names` is empty. Requires the GIL.
+/// Read-only float32 array of rows from the top, columns and the planes called `names`; None if the image
+/// lacks one of them or `names` is empty. Requires the GIL.
 [[nodiscard]] pybind11::object planes_of(const Image& image, const std::vector<std::string>& names);
 
 /// The picture of a sensor's planes `calibrated` (`DevelopedFilm`) on the sRGB display of `abbe render`, as

@@ -9,10 +9,10 @@
 
 namespace abbe::python {
 
-/// Calls `take`, which acquires the GIL, and returns after it. If the interpreter has ended meanwhile, Python
-/// ends threads that acquire the GIL; up to 3.13 it unwinds their stacks. Destructors would then release
-/// Python objects without the GIL, and the program would abort. Instead, the thread calls `last` and sleeps
-/// until the process exits, which is what Python does from 3.14 on.
+/// Calls `take`, which acquires the GIL. If the interpreter has ended meanwhile, Python up to 3.13 unwinds
+/// the stack of the thread. Destructors would then release Python objects without the GIL, and the program
+/// would abort. Instead, the thread calls `last` and sleeps until the process exits, as Python does from 3.14
+/// on.
 template <typename Take>
 void unless_python_ends(
     Take take, const std::function<void()>& last = [] {}) {
@@ -34,8 +34,8 @@ class GilReleased {
   GilReleased& operator=(const GilReleased&) = delete;
 };
 
-/// Holds the GIL during its lifetime, on a thread that Python started. It acquires the GIL if a `GilReleased`
-/// has released it, and does nothing otherwise. `last` is that of `unless_python_ends`.
+/// Holds the GIL during its lifetime, on a thread that Python started: acquires it if a `GilReleased` has
+/// released it. `last` is that of `unless_python_ends`.
 class GilAcquired {
  public:
   explicit GilAcquired(const std::function<void()>& last = [] {});

@@ -12,10 +12,9 @@
 namespace abbe::python {
 
 /// Renders `scene` with the options `how` on another thread, while the calling thread lets Python handle its
-/// signals. It calls `progress` with the latest Progress, at most every 50 ms, on the calling thread, unless
-/// it is None.
-/// An exception from `progress` or a signal ends the render after the current pass and is thrown; the film is
-/// lost. Otherwise throws what `render` throws. Requires that the caller has released the GIL by
+/// signals. The latter also calls `progress`, unless it is None, with the latest Progress at most every 50
+/// ms. An exception from `progress` or a signal ends the render after the current pass and is thrown; the
+/// film is lost. Otherwise throws what `render` throws. Requires that the caller has released the GIL by
 /// `GilReleased`.
 [[nodiscard]] RenderResult render_listening(const abbe::Scene& scene, RenderOptions how,
                                             const pybind11::object& progress);
@@ -41,8 +40,7 @@ void require_seed(const std::optional<std::int64_t>& seed);
 /// Throws Error{usage} unless `holds`: "`argument`: got `got`, allowed `allowed`".
 void require(bool holds, const char* argument, const std::string& got, const char* allowed);
 
-/// Render options with the threads, the target error and the time limit of a request; `samples`, `spp` and
-/// `seed` are not applied.
+/// Render options with the threads, the target error and the time limit of a request alone.
 [[nodiscard]] RenderOptions render_limits(const Request& request);
 
 }  // namespace abbe::python

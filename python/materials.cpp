@@ -1,7 +1,6 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include "io/text.h"

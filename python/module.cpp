@@ -1,5 +1,4 @@
 // The extension module `abbe._abbe`, which implements the package `abbe`.
-#include <filesystem>
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl/filesystem.h>

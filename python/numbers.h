@@ -15,9 +15,9 @@
 
 namespace abbe::python {
 
-/// Numeric argument: a number, or anything that numpy converts to an array of real numbers, without masked
-/// elements. Masked elements, complex numbers, dates and time spans throw Error{usage}; objects that numpy
-/// cannot convert are a TypeError.
+/// Numeric argument: a number, or anything that numpy converts to an array of real numbers. Masked elements,
+/// complex numbers, dates and time spans throw Error{usage}; objects that numpy cannot convert are a
+/// TypeError.
 using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
 /// Throws Error{usage} for masked elements of an array, or of arrays in a list, because numpy would convert

@@ -55,18 +55,6 @@ namespace {
 
 namespace py = pybind11;
 
-// Options of a render whose samples per pixel are `stated`. Throws Error{usage} for a range outside them.
-RenderOptions render_options(const Request& request, int stated) {
-  RenderOptions how = render_limits(request);
-  how.measure_error = false;
-  if (!request.samples) return how;
-  const auto [first, last] = *request.samples;
-  require(first < last && last <= static_cast<std::uint64_t>(stated), "sample_range",
-          fmt::format("({}, {})", first, last), "first < last, up to the samples of the whole render");
-  how.samples = request.samples;
-  return how;
-}
-
 // A copy of the scene with the requested settings; nothing if they equal those of the scene.
 std::optional<abbe::Scene> with_settings_of(const abbe::Scene& scene, const Request& request) {
   RenderSettings settings = scene.render;
@@ -85,7 +73,14 @@ FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::o
   const abbe::Scene& scene_with_white = handle.with_white(static_cast<int>(request.threads));
   const std::optional<abbe::Scene> copy = with_settings_of(scene_with_white, request);
   const abbe::Scene& scene = copy ? *copy : scene_with_white;
-  RenderOptions how = render_options(request, scene.render.samples);
+  RenderOptions how = render_limits(request);
+  how.measure_error = false;
+  how.samples = request.samples;
+  if (how.samples) {
+    const auto [first, last] = *how.samples;
+    require(first < last && last <= static_cast<std::uint64_t>(scene.render.samples), "sample_range",
+            fmt::format("({}, {})", first, last), "first < last, up to the samples of the whole render");
+  }
   how.guides = handle.guiding_data();
   Inputs inputs = handle.inputs();
   inputs.reserve_memory("the film", film_bytes(scene, how));

@@ -23,10 +23,9 @@ struct SceneSource {
   std::filesystem::path folder = {};            ///< Folder of the files that a dict names.
   std::vector<Override> overrides = {};         ///< Keywords that replace keys of a file.
 };
-/// The source for `source`: a path, a dict, or None for the empty dict. `keywords` are keys at the top level
-/// of the scene, which replace those of the file or dict. `folder` is the folder of files that a dict names;
-/// None is the current one.
-/// Throws Error{usage} for a folder with a path, InvalidInput for values that JSON cannot represent
+/// The source for `source`: a path, a dict, or None for the empty dict. `keywords` replace keys at the top
+/// level of the scene. `folder` is the folder of files that a dict names; None is the current one. Throws
+/// Error{usage} for a folder with a path, InvalidInput for values that JSON cannot represent
 /// (`to_json`), and TypeError for other objects. Requires the GIL.
 [[nodiscard]] SceneSource source_of(const pybind11::object& source, const pybind11::object& folder,
                                     const pybind11::dict& keywords);

@@ -65,10 +65,10 @@ void read_gltf(std::string&& bytes, MeshReading& reading);
 void read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading);
 
 /// Cuts a polygon of n >= 3 corners into n - 2 triangles with its winding, which replace the contents of
-/// `triangles`. The result is a fan around the first corner if no triangle of the fan turns back, as in every
-/// convex polygon, or if a polygon that is not flat folds over itself. Otherwise the polygon is cut by its
-/// ears. Returns nothing on success, and an error message for a flat polygon whose edges cross and one of
-/// more than 16384 corners that is not convex; `triangles` is then not usable.
+/// `triangles`. They are a fan around the first corner if no triangle of the fan turns back, as in every
+/// convex polygon. A polygon that is not flat and folds over itself also gives a fan. Otherwise its ears are
+/// cut. Returns nothing on success, and an error message for a flat polygon whose edges cross and one of more
+/// than 16384 corners that is not convex; `triangles` is then not usable.
 [[nodiscard]] std::optional<std::string> cut_polygon(const std::vector<Imath::V3d>& corners,
                                                      std::vector<Triangle>& triangles);
 /// Adds to `list` one entry per triangle that `cut_polygon` made: the attributes at its corners. `polygon`
