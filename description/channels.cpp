@@ -155,16 +155,6 @@ std::optional<Channel> build_channel(const schema::Named<spec::ChannelResponse>&
   return channel;
 }
 
-std::optional<SpectralBins> build_bins(const spec::Bins& spec, LoadContext& context) {
-  const double bins = (spec.to_nm - spec.from_nm) / spec.step_nm;
-  if (bins > kMinBins - 0.5 && bins < kMaxBins + 0.5 && std::abs(bins - std::round(bins)) < 1e-6)
-    return SpectralBins{spec.from_nm, spec.step_nm, static_cast<int>(std::round(bins))};
-  return context.refuse(
-      spec.where,
-      fmt::format("the bins do not fill the range (got {} of {} nm in [{}, {}] nm, allowed {} to {})", bins,
-                  spec.step_nm, spec.from_nm, spec.to_nm, kMinBins, kMaxBins));
-}
-
 /// Builds the channels for each alternative of `spec::Sensor::counts`. A faulty detector has no channels.
 struct ChannelBuilder {
   const spec::Sensor& sensor_spec;
@@ -278,6 +268,16 @@ void check_stokes(const spec::Sensor& spec, const Sensor& sensor, LoadContext& c
 }
 
 }  // namespace
+
+std::optional<SpectralBins> build_bins(const spec::Bins& spec, LoadContext& context) {
+  const double bins = (spec.to_nm - spec.from_nm) / spec.step_nm;
+  if (bins > kMinBins - 0.5 && bins < kMaxBins + 0.5 && std::abs(bins - std::round(bins)) < 1e-6)
+    return SpectralBins{spec.from_nm, spec.step_nm, static_cast<int>(std::round(bins))};
+  return context.refuse(
+      spec.where,
+      fmt::format("the bins do not fill the range (got {} of {} nm in [{}, {}] nm, allowed {} to {})", bins,
+                  spec.step_nm, spec.from_nm, spec.to_nm, kMinBins, kMaxBins));
+}
 
 void build_channels(const spec::Sensor& spec, Sensor& sensor, LoadContext& context) {
   std::vector<PartialTable> partial_tables;

@@ -103,7 +103,7 @@ static Fields fields(Tag<FilteredChannel>) {
       {"filters", "polariser"});
 }
 
-static Fields fields(Tag<Bins>) {
+Fields fields(Tag<Bins>) {
   return describe("spectral",
                   "Wavelength bins that fill a range, 2 to 1000 of them. The film then records radiances.",
                   {field("from_nm", &Bins::from_nm, kWavelength, "Lower end of the first bin."),

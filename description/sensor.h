@@ -64,6 +64,9 @@ struct Bins {
   SourcePosition where;
 };
 
+/// Key table by which scene files are read, written and documented.
+[[nodiscard]] schema::Fields fields(schema::Tag<Bins>);
+
 /// The pixels of a sensor and the quantities they record.
 struct Sensor {
   std::optional<std::string> model;  ///< Its keys were merged into this struct before the scene was read.
@@ -92,7 +95,6 @@ struct Sensor {
   std::optional<schema::Located<Readout>> readout;  ///< Conversion of electrons to codes; none if absent.
   SourcePosition where;
 };
-/// Key table by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<Sensor>);
 
 }  // namespace abbe::spec
@@ -117,6 +119,10 @@ struct Sensor {
 /// probe: it has one pixel unless the file gives a resolution, and may not record polarisation. Reports more
 /// than 65536 pixels along an edge, or 2^28 in all, with ErrorCode::resource.
 [[nodiscard]] Sensor build(const spec::Sensor& sensor, bool probe, LoadContext& context);
+
+/// Builds the wavelength bins. Reports bins that do not fill their range, fewer than 2 and more than 1000,
+/// and returns nothing.
+[[nodiscard]] std::optional<SpectralBins> build_bins(const spec::Bins& spec, LoadContext& context);
 
 /// Sets `sensor.channels`, with all filters applied, and `sensor.spectral`. A channel with an error is
 /// missing. Reports to `context.diagnostics`:

@@ -119,11 +119,11 @@ struct Obj {
 // word, or 0.
 template <std::size_t N>
 std::optional<std::array<double, N>> numbers(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n\v\f";
+  constexpr std::string_view kSpaces = " \t\r\n\v\f";
   std::array<double, N> v{};
   for (double& x : v) {
-    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-    const std::size_t end = std::min(text.find_first_of(kBlanks), text.size());
+    text.remove_prefix(std::min(text.find_first_not_of(kSpaces), text.size()));
+    const std::size_t end = std::min(text.find_first_of(kSpaces), text.size());
     const auto number = parse_number(text.substr(0, end));
     if (!number) return std::nullopt;
     x = *number;
