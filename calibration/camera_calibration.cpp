@@ -4,18 +4,11 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "calibration/chart/exposure_series.h"
-#include "calibration/chart/measured_patches.h"
-#include "calibration/fit/correction.h"
-#include "calibration/output/color_spaces.h"
-#include "io/diagnostics.h"
 #include "io/error.h"
 #include "io/image.h"
 #include "io/text.h"
@@ -52,18 +45,17 @@ std::vector<std::vector<double>> photographed_values(const CalibrationSetup& set
   for (const Patch& patch : setup.chart.patches) add(patch.reflectance);
   add(Curve(1.0));
   double brightest = 0;
-  for (const std::vector<double>& v : values)
-    brightest = std::max(brightest, *std::max_element(v.begin(), v.end()));
+  for (const std::vector<double>& v : values) brightest = std::max(brightest, std::ranges::max(v));
   for (std::vector<double>& v : values)
     for (double& x : v) x *= kPhotographLevel / brightest;
   return values;
 }
 
 // Largest linear value of a patch before white balance.
-double brightest_patch(const MeasuredCamera& camera) {
+double brightest_patch(const BalancedPatches& chart) {
   double brightest = 0;
-  for (const Raw& raw : camera.colors.raw)
-    for (std::size_t k = 0; k < 3; ++k) brightest = std::max(brightest, raw[k] / camera.gains[k]);
+  for (const Raw& raw : chart.colors.raw)
+    for (std::size_t k = 0; k < 3; ++k) brightest = std::max(brightest, raw[k] / chart.gains[k]);
   return brightest;
 }
 
@@ -88,18 +80,17 @@ constexpr const char* kDiffuser = "perfect diffuser";
 constexpr double kNeutralChroma = 5;
 
 std::optional<std::size_t> find(const MeasuredPatches& measured, const std::string& name) {
-  const auto found = std::find(measured.names.begin(), measured.names.end(), name);
+  const auto found = std::ranges::find(measured.names, name);
   if (found == measured.names.end()) return std::nullopt;
   return static_cast<std::size_t>(found - measured.names.begin());
 }
 
-// Throws Error{input} for a patch that the chart does not have. With a misspelt name it would count for
-// nothing.
+// With a misspelt name, a patch would count for nothing.
 void require_known(const ChartTargets& chart, const MeasuredPatches& measured) {
   std::vector<std::string> known = chart.names;
   known.emplace_back(kDiffuser);
   for (const std::string& name : measured.names)
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (std::ranges::find(known, name) == known.end())
       throw Error(ErrorCode::input, "measured patches", unknown_name("patch", name, known));
 }
 
@@ -279,8 +270,9 @@ void warn_of_misfit(const ChannelResponse& response, const fs::path& series, Dia
 
 CameraCalibration calibrate_measured(const MeasuredCamera& camera, const CharacterisationOptions& options) {
   const bool is_trained = !camera.training.raw.empty();
-  PatchColors colors = is_trained ? camera.training : camera.colors;
-  if (!is_trained && !camera.deviations.empty()) colors.weights = noise_weights(colors, camera.deviations);
+  const auto& [chart, gains, deviations] = camera.chart;
+  PatchColors colors = is_trained ? camera.training : chart;
+  if (!is_trained && !deviations.empty()) colors.weights = noise_weights(colors, deviations);
   CorrectionOptions how = options.fit;
   const std::optional<Matrix3> to_d65 = adaptation(colors.white, unit_xyz(kD65), options.adaptation);
   if (!to_d65)
@@ -291,24 +283,23 @@ CameraCalibration calibrate_measured(const MeasuredCamera& camera, const Charact
     how.model = result.candidates.front().model;
   }
   require_enough_patches(how.model, colors.raw.size());
-  result.colors = camera.colors;
-  result.patches = camera.colors.names;
+  result.colors = chart;
   result.correction = fit_correction(colors, how);
   if (is_trained) {
     result.training_patches = colors.raw.size();
-    result.correction.start = patch_errors(camera.colors, white_preserving_least_squares(colors, how.model));
-    result.unseen = result.correction.errors = patch_errors(camera.colors, result.correction.correction);
+    result.correction.start = patch_errors(chart, white_preserving_least_squares(colors, how.model));
+    result.unseen = result.correction.errors = patch_errors(chart, result.correction.correction);
   } else {
     result.unseen = cross_validate(colors, how, options.folds > 0 ? options.folds : colors.raw.size());
   }
-  result.unseen_mean = bootstrap_mean(result.unseen.delta_e, options.bootstrap);
-  result.columns = bootstrap_columns(colors, how, options.bootstrap);
+  result.unseen_mean = bootstrap_mean(result.unseen.delta_e, options.bootstrap_draws);
+  result.columns = bootstrap_columns(colors, how, options.bootstrap_draws);
   result.profile.light = camera.light;
   result.profile.description = valid_utf8(fmt::format("{} under {}", camera.name, camera.light));
   for (std::size_t k = 0; k < camera.responses.size(); ++k)
     result.profile.linearisation.at(k) = camera.responses[k].fit.linear;
-  result.profile.gains = camera.gains;
-  result.profile.brightest_patch = brightest_patch(camera);
+  result.profile.gains = gains;
+  result.profile.brightest_patch = brightest_patch(camera.chart);
   result.profile.correction = result.correction.correction;
   result.profile.adaptation = *to_d65;
   result.responses = camera.responses;
@@ -316,7 +307,7 @@ CameraCalibration calibrate_measured(const MeasuredCamera& camera, const Charact
 }
 
 bool choose_correction(CharacterisationOptions& options, std::string_view name) {
-  const auto known = std::find(kCorrectionNames.begin(), kCorrectionNames.end(), name);
+  const auto known = std::ranges::find(kCorrectionNames, name);
   const bool is_model = known != kCorrectionNames.end();
   if (!is_model && name != "auto") return false;
   options.choose = !is_model;
@@ -330,7 +321,8 @@ CameraCalibration calibrate_camera(const CalibrationSetup& setup, const Characte
   const PlantedResponse planted(is_linear ? "linear" : setup.planted_response);
   const std::vector<std::vector<double>> values = photographed_values(setup);
   MeasuredCamera camera{
-      setup.camera, setup.illuminant, integrate(setup.chart, setup.channels, setup.light), {}, {}};
+      setup.camera, setup.illuminant, {integrate(setup.chart, setup.channels, setup.light)}, {}};
+  auto& [colors, gains, deviations] = camera.chart;
   if (!setup.training.patches.empty())
     camera.training = integrate(setup.training, setup.channels, setup.light);
   const std::vector<double> times_s = is_linear ? std::vector{1.0} : exposure_times();
@@ -346,8 +338,8 @@ CameraCalibration calibrate_camera(const CalibrationSetup& setup, const Characte
       camera.responses.push_back({setup.channels[k].name, std::move(fit), error});
     }
     const double white = linear.back();
-    for (std::size_t i = 0; i < camera.colors.raw.size(); ++i) camera.colors.raw[i][k] = linear[i] / white;
-    camera.gains[k] = 1 / white;
+    for (std::size_t i = 0; i < colors.raw.size(); ++i) colors.raw[i][k] = linear[i] / white;
+    gains[k] = 1 / white;
   }
   CameraCalibration result = calibrate_measured(camera, options);
   result.times_s = times_s;
@@ -431,7 +423,7 @@ CalibrationCase measured_calibration(const CalibrationSource& source, const std:
   require_no_errors(diagnostics);
   require_light_of(*chart, *light);
   if (channels) require_rgb(*channels, &Channel::name, "--camera");
-  MeasuredCamera camera{source.measured.stem().string(), illuminant, {}, {}, {}};
+  MeasuredCamera camera{source.measured.stem().string(), illuminant, {}, {}};
   if (!source.series.empty()) {
     RecoveredResponses recovered = recover_responses(source.series, inputs, diagnostics);
     require_rgb(recovered.channels, &ChannelResponse::channel, "--series");
@@ -441,10 +433,7 @@ CalibrationCase measured_calibration(const CalibrationSource& source, const std:
   } else if (patches->unit == kCodeValues) {
     warn_of_codes(source.measured, "measure raw files, or give a --series", diagnostics);
   }
-  const BalancedPatches balanced = balance(*chart, *patches);
-  camera.colors = balanced.colors;
-  camera.gains = balanced.gains;
-  camera.deviations = balanced.deviations;
+  camera.chart = balance(*chart, *patches);
   if (channels) camera.training = integrate(training, *channels, light->curve);
   return {camera.name, source.chart, "", 0, calibrate_measured(camera, source.how), {}};
 }

@@ -50,8 +50,8 @@ struct CharacterisationOptions {
   Adaptation adaptation = Adaptation::bradford;  ///< Chromatic adaptation from the light's white to D65.
   /// Folds of the cross-validation, at least 2; 0 leaves one patch out at a time.
   std::size_t folds = 0;
-  bool choose = false;  ///< Choose the model by `cross_validate_models` instead of using that of `fit`.
-  BootstrapOptions bootstrap;
+  bool choose = false;        ///< Choose the model by `cross_validate_models` instead of using that of `fit`.
+  int bootstrap_draws = 200;  ///< Draws for all 95 % intervals, at least 1.
 };
 
 /// Selects the correction model by its name; "auto" selects the one with the least cross-validation error.
@@ -60,12 +60,11 @@ struct CharacterisationOptions {
 
 /// Calibration of a camera under one light.
 struct CameraCalibration {
-  std::vector<std::string> patches;  ///< Names of the chart's patches, in the order of all errors.
   /// Exposure times of a simulated camera's series, a single 1 if it is linear; empty for measured values.
   std::vector<double> times_s;
   /// One per channel; empty for a camera whose values are linear.
   std::vector<ChannelResponse> responses;
-  PatchColors colors;  ///< White-balanced values and true colours of the chart.
+  PatchColors colors;  ///< White-balanced values and true colours of the chart, in the order of all errors.
   /// Fitted correction. All its errors are those on the chart, also with training patches.
   CorrectionFit correction;
   /// Models that were compared, the chosen one first; empty if the model was given.
@@ -101,18 +100,22 @@ struct CameraCalibration {
 [[nodiscard]] CameraCalibration calibrate_camera(const CalibrationSetup& setup,
                                                  const CharacterisationOptions& options = {});
 
+/// Linear, white-balanced values with the colours of their chart, in its order without excluded patches.
+struct BalancedPatches {
+  PatchColors colors;
+  std::array<double, 3> gains{1, 1, 1};  ///< Factors from linear to balanced values, one per channel.
+  /// Standard deviations of the balanced values, one per patch of `colors`; empty: unknown.
+  std::vector<Raw> deviations = {};
+};
+
 /// Inputs of a real camera's calibration.
 struct MeasuredCamera {
   std::string name;                        ///< Name of the camera, for the profile.
   std::string light;                       ///< Name of the light, for the profile and for messages.
-  PatchColors colors;                      ///< Linear, white-balanced values of the chart.
-  std::array<double, 3> gains{1, 1, 1};    ///< Factors from linear to balanced values, one per channel.
-  std::vector<ChannelResponse> responses;  ///< Curves that linearised them: three, or none.
-  /// Patches in the same light to which the correction is fitted instead of `colors`, if there are any.
+  BalancedPatches chart;                   ///< Deviations weight the patches in the fit.
+  std::vector<ChannelResponse> responses;  ///< Curves that linearised the values: three, or none.
+  /// Patches in the same light to which the correction is fitted instead of the chart, if there are any.
   PatchColors training = {};
-  /// Standard deviations of the values of `colors`, which weight its patches; empty for equal weights. Not
-  /// used with `training`.
-  std::vector<Raw> deviations = {};
 };
 
 /// Fits the correction to measured values, and validates it. Throws Error{usage} for too few patches for a
@@ -121,16 +124,6 @@ struct MeasuredCamera {
 /// impossible.
 [[nodiscard]] CameraCalibration calibrate_measured(const MeasuredCamera& camera,
                                                    const CharacterisationOptions& options = {});
-
-/// Linear, white-balanced measured values with the colours of their chart, in its order without excluded
-/// patches.
-struct BalancedPatches {
-  PatchColors colors;
-  /// Factors from the measured to the balanced values, in the order R, G, B.
-  std::array<double, 3> gains;
-  /// Standard deviations of the balanced values, one per patch of `colors`; empty: unknown.
-  std::vector<Raw> deviations = {};
-};
 
 /// Balances measured values on the patch named "perfect diffuser", if there is one. Otherwise it uses the
 /// value of the perfect diffuser that best fits the chart's neutral patches (chroma below 5), weighted by

@@ -119,7 +119,7 @@ std::string patch_html(const CameraCalibration& c, std::size_t i) {
       "style=\"background: rgb({:.1f}% {:.1f}% {:.1f}%)\"></div><div style=\"background: "
       "{}\"></div></div>{}<br><span class=\"soft\">{:.2f}, left out {:.2f}</span></div>\n",
       css(to_d65(c.colors.xyz[i])), 100 * balanced[0], 100 * balanced[1], 100 * balanced[2],
-      css(to_d65(c.correction.correction(raw))), escaped(c.patches[i]), c.correction.errors.delta_e[i],
+      css(to_d65(c.correction.correction(raw))), escaped(c.colors.names[i]), c.correction.errors.delta_e[i],
       c.unseen.delta_e[i]);
 }
 
@@ -161,7 +161,7 @@ std::string calibration_section(const CalibrationCase& one) {
       "white balance only, and the corrected colour. The numbers are CIEDE2000 of the fit, and of a fit that "
       "left the patch out.</p>\n<div class=\"patches\">\n",
       escaped(one.camera), escaped(c.profile.light), escaped(one.chart));
-  for (std::size_t i = 0; i < c.patches.size(); ++i) html += patch_html(c, i);
+  for (std::size_t i = 0; i < c.colors.names.size(); ++i) html += patch_html(c, i);
   html += "</div>\n" + error_table(c);
   return html + inline_svg(histogram_svg(c.unseen.delta_e, kHistogramStep, "Patches left out of the fit",
                                          "CIEDE2000"));
@@ -249,8 +249,8 @@ Json json_of(const CalibrationCase& calibration) {
     answer["test_dE00_max"] = calibration.test->max;
   }
   answer["patches"] = Json::array();
-  for (std::size_t i = 0; i < c.patches.size(); ++i)
-    answer["patches"].push_back({{"name", c.patches[i]},
+  for (std::size_t i = 0; i < c.colors.names.size(); ++i)
+    answer["patches"].push_back({{"name", c.colors.names[i]},
                                  {"dE00", c.correction.errors.delta_e[i]},
                                  {"unseen_dE00", c.unseen.delta_e[i]}});
   return answer;
@@ -264,8 +264,8 @@ std::string table_of(const CalibrationCase& calibration) {
   if (!c.responses.empty()) text += "\n" + table_of(c.responses);
   const CorrectionFit& fit = c.correction;
   text += fmt::format("\n{:<28}{:>10}{:>16}{:>12}\n", "patch", "dE2000", "least squares", "left out");
-  for (std::size_t i = 0; i < c.patches.size(); ++i)
-    text += row(c.patches[i], fit.errors.delta_e[i], fit.start.delta_e[i], c.unseen.delta_e[i]);
+  for (std::size_t i = 0; i < c.colors.names.size(); ++i)
+    text += row(c.colors.names[i], fit.errors.delta_e[i], fit.start.delta_e[i], c.unseen.delta_e[i]);
   text += row("mean", fit.errors.mean, fit.start.mean, c.unseen.mean);
   text += row("max", fit.errors.max, fit.start.max, c.unseen.max);
   text += fmt::format("mean left out, 95 %: {:.4f} to {:.4f}\n", c.unseen_mean.low, c.unseen_mean.high);

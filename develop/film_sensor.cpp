@@ -159,7 +159,7 @@ std::optional<DisplayTransform> read_display(const Metadata& data, FilmSensor& s
     if (!is_invertible(adapted)) data.refuse(kWhiteXyKey);
     matrix = white_adaptation(*white) * adapted.inverse(true) * *matrix;
   }
-  return DisplayTransform(sensor.channels, *matrix, {}, view);
+  return DisplayTransform(sensor.channels, *matrix, view);
 }
 
 void scale_plane(Image& film, const std::string& name, double factor) {

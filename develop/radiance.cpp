@@ -77,7 +77,7 @@ Image observed(const SpectralImage& image) {
 
 DisplayTransform display_of_radiance(const ViewOptions& view, std::optional<Chromaticity> white) {
   const Matrix3 adapted = white ? white_adaptation(*white) : Matrix3();
-  return {{kRgb.begin(), kRgb.end()}, adapted * rgb_to_xyz_d65(kRec709), {}, view};
+  return {{kRgb.begin(), kRgb.end()}, adapted * rgb_to_xyz_d65(kRec709), view};
 }
 
 FilmSensor observer_of(const Image& film, const std::filesystem::path& path, const ViewOptions& view,

@@ -48,7 +48,7 @@ py::dict curves_of(const std::vector<ChannelResponse>& responses) {
 // The results by the names that the docstring of `calibrate` describes.
 py::dict dict_of(const CameraCalibration& made) {
   py::dict result;
-  result["patches"] = made.patches;
+  result["patches"] = made.colors.names;
   result["dE00"] = py::array(py::cast(made.correction.errors.delta_e));
   result["dE00_mean"] = made.correction.errors.mean;
   result["dE00_max"] = made.correction.errors.max;

@@ -267,7 +267,7 @@ DisplayTransform display_of(const Scene& scene, const ViewOptions& view) {
   std::vector<std::string> names;
   for (const Channel& channel : channels) names.push_back(channel.name);
   if (const auto calibrated = camera_matrix(view, names, white.name, white.xy))
-    return {std::move(names), calibrated->to_xyz_d65, {}, view};
+    return {std::move(names), calibrated->to_xyz_d65, view};
   return make_display(channels, *white.spectrum, view, white.xy);
 }
 

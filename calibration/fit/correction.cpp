@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kLossScale = 0.05;  // colour difference below which the loss turns quadratic
 constexpr std::size_t kPatchesPerTerm = 4;
+constexpr double kJitter = 0.1;  // standard deviation of a start's coefficients, in XYZ with Y = 1 for white
 // Minimum difference of channels, relative to their largest value. A correction with coefficients above its
 // inverse would amplify smaller differences, which are the rounding of float films (6e-8). Measured filters
 // differ by 8e-4 and more, bands of 10 nm at a distance of 1 nm by 8e-5. In monochromatic light all channels
@@ -301,7 +302,7 @@ CorrectionFit fit_correction(const PatchColors& colors, const CorrectionOptions&
     return objective_of(errors, colors, options.objective);
   };
   std::mt19937_64 random(options.seed);
-  std::normal_distribution<double> jitter(0, options.jitter);
+  std::normal_distribution<double> jitter(0, kJitter);
   for (int k = 0; k < options.starts; ++k) {
     Parameters parameters = least_squares;
     if (k > 0)

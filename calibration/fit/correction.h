@@ -96,8 +96,6 @@ struct CorrectionOptions {
   Objective objective = Objective::delta_e_2000;
   /// Number of starts: the least-squares correction and randomly displaced copies of it. At least 1.
   int starts = 16;
-  /// Standard deviation of the displacement of each coefficient, in XYZ with Y = 1 for white.
-  double jitter = 0.1;
   std::uint64_t seed = 1;  ///< Seed of the displacements.
   /// Maximum number of iterations from each start. A sum of absolute errors approaches its minimum by a
   /// nearly constant factor per step, as slowly as 0.97 for ideal filters. A fit may therefore need hundreds

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ constexpr double kTail = 0.025;  // probability on either side of a 95 % interva
 // Nearly all patches remain, so the least-squares start alone finds the minimum that many starts find for the
 // whole chart.
 constexpr int kStarts = 2;
+constexpr std::uint64_t kSeed = 1;  // of the draws
 
 // Selects patches by index, in this order and with repetition.
 PatchColors selection(const PatchColors& colors, const std::vector<std::size_t>& indices) {
@@ -46,12 +48,6 @@ Interval percentiles(std::vector<double> values) {
   return {at(kTail), at(1 - kTail)};
 }
 
-// Number of folds to compare models: one patch each, or groups of patches for a large set.
-std::size_t folds_for_choice(std::size_t patches) {
-  constexpr std::size_t kMaxFolds = 24;
-  return std::min(patches, kMaxFolds);
-}
-
 }  // namespace
 
 double median(std::vector<double> values) {
@@ -63,25 +59,24 @@ double median(std::vector<double> values) {
 
 std::vector<ModelCandidate> cross_validate_models(const PatchColors& colors, const CorrectionOptions& options,
                                                   std::size_t folds) {
+  constexpr std::size_t kMaxFolds = 24;
+  const std::size_t groups = folds > 0 ? folds : std::min(colors.raw.size(), kMaxFolds);
   std::vector<ModelCandidate> candidates;
   for (const CorrectionModel model :
        {CorrectionModel::linear, CorrectionModel::root_polynomial_2, CorrectionModel::root_polynomial_3}) {
     if (!are_enough_patches(model, colors.raw.size())) continue;
     CorrectionOptions how = options;
     how.model = model;
-    const std::size_t groups = folds > 0 ? folds : folds_for_choice(colors.raw.size());
     candidates.push_back({model, cross_validate(colors, how, groups).mean});
   }
   // A simpler model is preferred if the difference is invisible.
   constexpr double kInvisible = 0.01;
-  const auto less = [](const ModelCandidate& x, const ModelCandidate& y) {
-    return x.unseen_mean < y.unseen_mean;
-  };
-  const double limit = std::min_element(candidates.begin(), candidates.end(), less)->unseen_mean + kInvisible;
-  const auto chosen = std::find_if(candidates.begin(), candidates.end(),
-                                   [&](const ModelCandidate& c) { return c.unseen_mean <= limit; });
+  const double limit =
+      std::ranges::min(candidates, {}, &ModelCandidate::unseen_mean).unseen_mean + kInvisible;
+  const auto chosen =
+      std::ranges::find_if(candidates, [&](const ModelCandidate& c) { return c.unseen_mean <= limit; });
   std::rotate(candidates.begin(), chosen, chosen + 1);
-  std::sort(candidates.begin() + 1, candidates.end(), less);
+  std::ranges::sort(candidates.begin() + 1, candidates.end(), {}, &ModelCandidate::unseen_mean);
   return candidates;
 }
 
@@ -113,9 +108,9 @@ PatchErrors cross_validate(const PatchColors& colors, const CorrectionOptions& o
   return unseen;
 }
 
-Interval bootstrap_mean(std::span<const double> values, const BootstrapOptions& options) {
-  std::mt19937_64 random(options.seed);
-  std::vector<double> means(static_cast<std::size_t>(options.replicates));
+Interval bootstrap_mean(std::span<const double> values, int draws) {
+  std::mt19937_64 random(kSeed);
+  std::vector<double> means(static_cast<std::size_t>(draws));
   for (double& mean : means) {
     for (const std::size_t i : draw_indices(values.size(), random)) mean += values[i];
     mean /= static_cast<double>(values.size());
@@ -124,15 +119,14 @@ Interval bootstrap_mean(std::span<const double> values, const BootstrapOptions& 
 }
 
 std::vector<std::array<Interval, 3>> bootstrap_columns(const PatchColors& colors,
-                                                       const CorrectionOptions& how,
-                                                       const BootstrapOptions& options) {
+                                                       const CorrectionOptions& how, int draws) {
   CorrectionOptions once = how;
   once.starts = std::min(how.starts, kStarts);
   const std::size_t terms = term_count(how.model);
   std::vector<std::array<std::vector<double>, 3>> values(terms);
-  std::mt19937_64 random(options.seed);
+  std::mt19937_64 random(kSeed);
   int failures = 0;
-  for (int done = 0; done < options.replicates;) {
+  for (int done = 0; done < draws;) {
     try {
       const ColorCorrection fit =
           fit_correction(selection(colors, draw_indices(colors.raw.size(), random)), once).correction;
@@ -140,7 +134,7 @@ std::vector<std::array<Interval, 3>> bootstrap_columns(const PatchColors& colors
         for (std::size_t i = 0; i < 3; ++i) values[t][i].push_back(fit.columns[t][i]);
       ++done;
     } catch (const Error&) {
-      if (++failures > options.replicates) throw;
+      if (++failures > draws) throw;
     }
   }
   std::vector<std::array<Interval, 3>> intervals(terms);

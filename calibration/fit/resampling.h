@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -40,20 +39,14 @@ struct ModelCandidate {
                                                                 const CorrectionOptions& options,
                                                                 std::size_t folds);
 
-/// Options of a bootstrap [Efron1993].
-struct BootstrapOptions {
-  int replicates = 200;  ///< Number of draws, at least 1.
-  std::uint64_t seed = 1;
-};
-
-/// 95 % percentile interval of the mean of `values`, which are drawn with replacement and must not be empty.
-[[nodiscard]] Interval bootstrap_mean(std::span<const double> values, const BootstrapOptions& options = {});
+/// 95 % percentile interval of the mean of `values`, by bootstrap [Efron1993]: they are drawn with
+/// replacement `draws` times, at least once. They must not be empty.
+[[nodiscard]] Interval bootstrap_mean(std::span<const double> values, int draws);
 
 /// 95 % percentile intervals of a correction's columns: those of X, Y and Z for each term. The patches are
 /// drawn with replacement and the correction is fitted to each draw, from at most two starts. A draw whose
 /// fit fails is repeated. Throws the Error{input} of such a fit if more draws fail than are requested.
 [[nodiscard]] std::vector<std::array<Interval, 3>> bootstrap_columns(const PatchColors& colors,
-                                                                     const CorrectionOptions& how,
-                                                                     const BootstrapOptions& options = {});
+                                                                     const CorrectionOptions& how, int draws);
 
 }  // namespace abbe

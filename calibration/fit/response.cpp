@@ -35,11 +35,15 @@ constexpr double kMadToDeviation = 1.4826;
 constexpr std::size_t kGroups = 12;
 constexpr std::size_t kMinGroupSize = 32;  // gives the deviation to about a seventh
 constexpr double kMinSpan = 1.02;
+constexpr std::size_t kTableSize = 4096;
 constexpr double kMinFall = 0.01;                 // relative fall of a code
 constexpr double kMaxUncertainty = 0.1;           // relative to the exposure of the highest code
 constexpr double kMaxFullScaleUncertainty = 0.5;  // relative to full scale, outside the codes
 
-// Throws Error{input} about a response fit, with this message, unless `condition` holds.
+double code_of_entry(std::size_t i) {
+  return static_cast<double>(i) / static_cast<double>(kTableSize - 1);
+}
+
 void require_for_response(bool condition, const std::string& message) {
   if (!condition) throw Error(ErrorCode::input, "response fit", message);
 }
@@ -58,8 +62,7 @@ void require_rise(const ExposureSeries& series, std::size_t from, std::size_t to
   constexpr std::size_t kMinPatches = 4;
   const std::vector<double> code_ratios = ratios(series, from, to);
   if (code_ratios.size() < kMinPatches) return;
-  const auto falling =
-      std::count_if(code_ratios.begin(), code_ratios.end(), [](double ratio) { return ratio < 1; });
+  const auto falling = std::ranges::count_if(code_ratios, [](double ratio) { return ratio < 1; });
   const double fall = 1 - median(code_ratios);
   require_for_response(
       4 * falling < static_cast<std::ptrdiff_t>(3 * code_ratios.size()) || fall < kMinFall,
@@ -78,13 +81,11 @@ void require_usable_times(const ExposureSeries& series) {
   const std::vector<double>& times = series.times_s;
   require_for_response(times.size() >= 2,
                        fmt::format("an exposure series needs two times or more (got {})", times.size()));
-  require_for_response(
-      std::all_of(times.begin(), times.end(), [](double t) { return t > 0 && std::isfinite(t); }),
-      "exposure times must be positive");
+  require_for_response(std::ranges::all_of(times, [](double t) { return t > 0 && std::isfinite(t); }),
+                       "exposure times must be positive");
   std::vector<std::size_t> order(times.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return times[i]; });
   const double span = times[order.back()] / times[order.front()];
   require_for_response(span >= kMinSpan,
                        fmt::format("the exposure times do not determine the curve: the longest is {:.6g} "
@@ -99,13 +100,11 @@ double half_width_95(const ResponseFit& fit, double code) {
   return kDeviationsOf95 * linearise(fit.log_deviation, code) * linearise(fit.linear, code);
 }
 
-// Throws Error{input} unless the samples of a fit determine its curve. `samples` must not be empty; this is
-// not checked. Between their lowest and highest code, the 95 % interval must extend less than a tenth of the
-// highest code's exposure to either side. Outside, it must extend less than half of full scale.
+// Throws Error{input} unless the samples of a fit, at least one, determine its curve. Between their lowest
+// and highest code, the 95 % interval must extend less than a tenth of the highest code's exposure to either
+// side. Outside, it must extend less than half of full scale.
 void require_determined(const ResponseFit& fit, std::span<const ResponseSample> samples) {
-  const auto [lowest, highest] =
-      std::minmax_element(samples.begin(), samples.end(),
-                          [](const ResponseSample& a, const ResponseSample& b) { return a.code < b.code; });
+  const auto [lowest, highest] = std::ranges::minmax_element(samples, {}, &ResponseSample::code);
   const double brightest = linearise(fit.linear, highest->code);
   double uncertainty = 0;
   double at = 0;
@@ -138,33 +137,21 @@ double deviation_of(std::vector<double> sizes) {
   return kMadToDeviation * median(std::move(sizes));
 }
 
-/// Noise of codes from dark to full scale, estimated from the residuals of a fit. It is used if a series does
-/// not state deviations. Photon noise makes the errors of single pixels many times larger at bright codes
-/// than at dark ones. A fit that assumed equal errors would be far too certain of the bright end.
-class NoiseByCode {
- public:
-  /// Estimates the noise from the absolute `errors` of the codes of `samples`, both in one order and not
-  /// empty. The samples are divided into up to 12 groups of neighbouring codes, each with the standard
-  /// deviation of its own errors.
-  NoiseByCode(std::span<const ResponseSample> samples, std::span<const double> errors);
-
-  /// Standard deviation of a code in [0, 1]: linear between the median codes of the groups, constant outside
-  /// them.
-  [[nodiscard]] double deviation(double code) const;
-
- private:
-  struct Level {
-    double code;
-    double deviation;
-  };
-  std::vector<Level> levels_;  // by code
+// Median code of a group of neighbouring codes, with the standard deviation of its errors.
+struct NoiseLevel {
+  double code;
+  double deviation;
 };
 
-NoiseByCode::NoiseByCode(std::span<const ResponseSample> samples, std::span<const double> errors) {
+// Noise of up to 12 groups of codes from dark to full scale, estimated from the absolute `errors` of a fit.
+// Photon noise makes the errors of single pixels many times larger at bright codes than at dark ones. A fit
+// that assumed equal errors would be far too certain of the bright end.
+std::vector<NoiseLevel> noise_levels(std::span<const ResponseSample> samples,
+                                     std::span<const double> errors) {
+  std::vector<NoiseLevel> levels;
   std::vector<std::size_t> order(samples.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return samples[a].code < samples[b].code; });
+  std::ranges::sort(order, {}, [&](std::size_t i) { return samples[i].code; });
   const std::size_t groups = std::clamp(samples.size() / kMinGroupSize, std::size_t{1}, kGroups);
   for (std::size_t g = 0; g < groups; ++g) {
     std::vector<double> codes;
@@ -173,16 +160,17 @@ NoiseByCode::NoiseByCode(std::span<const ResponseSample> samples, std::span<cons
       codes.push_back(samples[order[i]].code);
       sizes.push_back(errors[order[i]]);
     }
-    levels_.push_back({median(std::move(codes)), deviation_of(std::move(sizes))});
+    levels.push_back({median(std::move(codes)), deviation_of(std::move(sizes))});
   }
+  return levels;
 }
 
-double NoiseByCode::deviation(double code) const {
-  const auto above = std::upper_bound(levels_.begin(), levels_.end(), code,
-                                      [](double c, const Level& level) { return c < level.code; });
-  if (above == levels_.begin()) return levels_.front().deviation;
-  if (above == levels_.end()) return levels_.back().deviation;
-  const Level& below = *(above - 1);
+// Standard deviation of a code in [0, 1]: linear between the groups, constant outside them.
+double deviation_at(const std::vector<NoiseLevel>& levels, double code) {
+  const auto above = std::ranges::upper_bound(levels, code, {}, &NoiseLevel::code);
+  if (above == levels.begin()) return levels.front().deviation;
+  if (above == levels.end()) return levels.back().deviation;
+  const NoiseLevel& below = *(above - 1);
   return std::lerp(below.deviation, above->deviation, (code - below.code) / (above->code - below.code));
 }
 
@@ -271,10 +259,10 @@ double noise_scale(const std::vector<ResponseSample>& samples, const ResponseUnk
 // Sets the unknown deviations of samples to those of the residuals at similar codes.
 void estimate_deviations(std::vector<ResponseSample>& samples, WeightedSamples& fitted,
                          const ResponseUnknowns& unknowns) {
-  const NoiseByCode noise(fitted.samples, code_errors(fitted.samples, unknowns));
+  const std::vector<NoiseLevel> noise = noise_levels(fitted.samples, code_errors(fitted.samples, unknowns));
   for (std::vector<ResponseSample>* const list : {&samples, &fitted.samples})
     for (ResponseSample& s : *list)
-      s.deviation = std::max(kMinDeviation, noise.deviation(predicted_code(unknowns, s)));
+      s.deviation = std::max(kMinDeviation, deviation_at(noise, predicted_code(unknowns, s)));
 }
 
 // Samples that noise cannot have clipped, with weights 1/(s g') for a code deviation s and the slope g' of
@@ -295,8 +283,8 @@ WeightedSamples weigh(const std::vector<ResponseSample>& all, const ResponseUnkn
 }
 
 // Standard deviation of ln exposure relative to mid-scale, from the covariance of the coefficients.
-std::vector<double> log_deviations(const WeightedSamples& data, double roughness, ResponseUnknowns& unknowns,
-                                   std::size_t size) {
+std::vector<double> log_deviations(const WeightedSamples& data, double roughness,
+                                   ResponseUnknowns& unknowns) {
   const auto problem = all_terms(data, roughness, unknowns);
   const QuietLibrary quiet;
   ceres::Covariance::Options options;
@@ -316,21 +304,20 @@ std::vector<double> log_deviations(const WeightedSamples& data, double roughness
   std::array<Jet, kCoefficients> dual;
   for (int k = 0; k < kSize; ++k) dual[static_cast<std::size_t>(k)] = Jet(theta[k], k);
   const ResponseModel<Jet> model(dual.data());
-  std::vector<double> deviations(size, 0.0);
-  for (std::size_t i = 1; i < size; ++i) {
-    const auto gradient = model(static_cast<double>(i) / static_cast<double>(size - 1)).v;
+  std::vector<double> deviations(kTableSize, 0.0);
+  for (std::size_t i = 1; i < kTableSize; ++i) {
+    const auto gradient = model(code_of_entry(i)).v;
     deviations[i] = std::sqrt(std::max(0.0, gradient.dot(c * gradient)));
   }
   return deviations;
 }
 
 // Linear exposure over that of full scale at equidistant codes.
-std::vector<double> tabulate(const ResponseUnknowns& unknowns, std::size_t size) {
+std::vector<double> tabulate(const ResponseUnknowns& unknowns) {
   const ResponseModel<double> model = unknowns.model();
   const double full_scale = model(1.0);
-  std::vector<double> table(size, 0.0);
-  for (std::size_t i = 1; i < size; ++i)
-    table[i] = std::exp(model(static_cast<double>(i) / static_cast<double>(size - 1)) - full_scale);
+  std::vector<double> table(kTableSize, 0.0);
+  for (std::size_t i = 1; i < kTableSize; ++i) table[i] = std::exp(model(code_of_entry(i)) - full_scale);
   return table;
 }
 
@@ -354,8 +341,7 @@ std::vector<SampleError> sample_errors(const std::vector<ResponseSample>& sample
     all.push_back({code, errors[i] / std::max(kMinDeviation, scale * samples[i].deviation), log_exposure,
                    log_exposure * std::exp(model(code) - full_scale)});
   }
-  std::sort(all.begin(), all.end(),
-            [](const SampleError& a, const SampleError& b) { return a.code < b.code; });
+  std::ranges::sort(all, {}, &SampleError::code);
   return all;
 }
 
@@ -383,7 +369,7 @@ bool is_cluster(std::size_t off, std::size_t off_elsewhere, std::size_t elsewher
 std::optional<ResponseMisfit> misfit_of(const std::vector<SampleError>& errors) {
   constexpr double kNegligible = 0.002;  // of full scale
   const auto all_off = static_cast<std::size_t>(
-      std::count_if(errors.begin(), errors.end(), [](const SampleError& e) { return e.deviations > kOff; }));
+      std::ranges::count_if(errors, [](const SampleError& e) { return e.deviations > kOff; }));
   std::optional<ResponseMisfit> misfit;
   for (std::size_t first = 0; first + kWindow <= errors.size(); ++first) {
     std::vector<double> off;
@@ -408,12 +394,9 @@ std::optional<ResponseMisfit> misfit_of(const std::vector<SampleError>& errors) 
 
 // Widens the interval to include the misfit.
 void widen(std::vector<double>& log_deviation, const ResponseMisfit& misfit) {
-  const auto last = static_cast<double>(log_deviation.size() - 1);
-  for (std::size_t i = 0; i < log_deviation.size(); ++i) {
-    const double code = static_cast<double>(i) / last;
-    if (code >= misfit.low_code && code <= misfit.high_code)
+  for (std::size_t i = 0; i < kTableSize; ++i)
+    if (code_of_entry(i) >= misfit.low_code && code_of_entry(i) <= misfit.high_code)
       log_deviation[i] = std::hypot(log_deviation[i], misfit.log_exposure);
-  }
 }
 
 void require_samples(const std::vector<ResponseSample>& samples) {
@@ -435,13 +418,13 @@ WeightedSamples first_weights(const std::vector<ResponseSample>& samples) {
 
 }  // namespace
 
-ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions& options) {
+ResponseFit recover_response(const ExposureSeries& series, int max_iterations) {
   require_usable_times(series);
   std::vector<ResponseSample> samples = usable_samples(series, false);
   WeightedSamples data = first_weights(usable_samples(series, true));
   require_samples(data.samples);
   ResponseUnknowns unknowns = start(data.samples, series.codes.size());
-  ceres::Solver::Summary summary = converge(data, kFirstRoughness, options.max_iterations, unknowns);
+  ceres::Solver::Summary summary = converge(data, kFirstRoughness, max_iterations, unknowns);
   ResponseFit fit;
   fit.iterations = static_cast<int>(summary.iterations.size());
   const std::size_t unknown_count = kCoefficients + series.codes.size();
@@ -452,11 +435,11 @@ ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions
     require_samples(data.samples);
     fit.roughness = choose_roughness(data, unknowns);
 
-    summary = converge(data, fit.roughness, options.max_iterations, unknowns);
+    summary = converge(data, fit.roughness, max_iterations, unknowns);
     fit.iterations += static_cast<int>(summary.iterations.size());
   }
-  fit.linear = tabulate(unknowns, options.table_size);
-  fit.log_deviation = log_deviations(data, fit.roughness, unknowns, options.table_size);
+  fit.linear = tabulate(unknowns);
+  fit.log_deviation = log_deviations(data, fit.roughness, unknowns);
   fit.initial_cost = summary.initial_cost;
   fit.final_cost = summary.final_cost;
   fit.median_code = median(code_errors(data.samples, unknowns));

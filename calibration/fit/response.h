@@ -20,7 +20,7 @@ struct ResponseMisfit {
 
 /// Recovered response of one channel.
 struct ResponseFit {
-  /// Linear exposure of code i/(size - 1) as a fraction of full scale, strictly rising from 0 to 1.
+  /// Linear exposure of code i/4095 as a fraction of full scale, strictly rising from 0 to 1.
   std::vector<double> linear;
   /// Standard deviation of ln exposure at each code, relative to mid-scale, where it is 0. The common factor
   /// of all exposures cannot be observed, and that of full scale hardly. The truth lies within `linear`
@@ -43,12 +43,6 @@ struct ResponseFit {
   std::optional<ResponseMisfit> misfit = {};
 };
 
-/// Options of the recovery of a response.
-struct ResponseOptions {
-  std::size_t table_size = 4096;  ///< Number of entries of `ResponseFit::linear`, at least 2.
-  int max_iterations = 300;       ///< Maximum number of iterations of each pass.
-};
-
 /// Recovers the response of one channel from a series of known exposure times. The unknowns are the curve g
 /// and the exposures E_i of the patches. The fit minimises the sum over samples of Cauchy([g(z_ij) - ln E_i -
 /// ln t_j]/s_ij) plus a smoothness term on g [Debevec1997, eq. 3]. Here s_ij is the standard deviation of the
@@ -67,8 +61,8 @@ struct ResponseOptions {
 /// - fewer than 32 codes are usable (`usable_samples`), or the fitted curve does not rise everywhere;
 /// - times and codes contradict one another (`require_usable_times`);
 /// - the series does not determine the curve (`require_determined`);
-/// - the solver does not converge.
-[[nodiscard]] ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions& options = {});
+/// - the solver does not converge in `max_iterations` per pass.
+[[nodiscard]] ResponseFit recover_response(const ExposureSeries& series, int max_iterations = 300);
 
 /// Lower and upper end of the 95 % interval of entry i of `ResponseFit::linear`, as fractions of full scale.
 [[nodiscard]] std::pair<double, double> bounds_95(const ResponseFit& fit, std::size_t i);

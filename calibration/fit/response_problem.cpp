@@ -1,7 +1,5 @@
 #include "calibration/fit/response_problem.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -130,26 +128,19 @@ NormalEquations smoothness_normal(double roughness, const ResponseUnknowns& unkn
   return {jacobian.transpose() * jacobian, jacobian.transpose() * residuals};
 }
 
-// Rows of the samples, grouped by exposure time.
-std::vector<std::vector<Eigen::Index>> exposures_of(const WeightedSamples& data) {
-  std::map<double, std::vector<Eigen::Index>> rows;
-  for (std::size_t i = 0; i < data.samples.size(); ++i)
-    rows[data.samples[i].log_time].push_back(static_cast<Eigen::Index>(i));
-  std::vector<std::vector<Eigen::Index>> exposures;
-  for (auto& [time, list] : rows) exposures.push_back(std::move(list));
-  return exposures;
-}
+// Rows of the samples by exposure time.
+using Exposures = std::map<double, std::vector<Eigen::Index>>;
 
 // Sum of the squared residuals of each exposure under the fit to all others. The fit is linear, so leaving
 // out is exact and needs no other fit: residuals r with the block H of the hat matrix become (I - H)^-1 r.
-double left_out_score(const std::vector<std::vector<Eigen::Index>>& exposures, const ReducedProblem& problem,
+double left_out_score(const Exposures& exposures, const ReducedProblem& problem,
                       const Eigen::LDLT<Eigen::MatrixXd>& solver, const Eigen::VectorXd& residuals) {
   constexpr double kAlone = 1e-6;  // for a patch without any other exposure
   const auto of_one_patch = [&problem](Eigen::Index a, Eigen::Index b) {
     return problem.patch[static_cast<std::size_t>(a)] == problem.patch[static_cast<std::size_t>(b)];
   };
   double score = 0;
-  for (const std::vector<Eigen::Index>& rows : exposures) {
+  for (const auto& [time, rows] : exposures) {
     const Eigen::MatrixXd jacobian = problem.jacobian(rows, Eigen::all);
     Eigen::MatrixXd rest = -jacobian * solver.solve(jacobian.transpose());
     rest.diagonal().array() += 1 + kAlone;
@@ -202,7 +193,9 @@ double choose_roughness(const WeightedSamples& data, ResponseUnknowns& unknowns)
   const ReducedProblem problem = eliminate_exposures(data, unknowns);
   const Eigen::MatrixXd data_matrix = problem.jacobian.transpose() * problem.jacobian;
   const Eigen::VectorXd data_gradient = problem.jacobian.transpose() * problem.residuals;
-  const std::vector<std::vector<Eigen::Index>> exposures = exposures_of(data);
+  Exposures exposures;
+  for (std::size_t i = 0; i < data.samples.size(); ++i)
+    exposures[data.samples[i].log_time].push_back(static_cast<Eigen::Index>(i));
   double best = 1;
   double best_score = std::numeric_limits<double>::infinity();
   for (double roughness = 1; roughness < 5000; roughness *= 2) {

@@ -17,7 +17,7 @@
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
 
-#include "calibration/chart/patches.h"
+#include "calibration/fit/correction.h"
 #include "calibration/output/color_spaces.h"
 #include "calibration/output/ocio.h"
 #include "io/error.h"
@@ -150,22 +150,18 @@ std::map<std::string, std::string> code_attributes(bool is_builtin, const std::s
 
 DisplayTransform grey_display(const Channel& channel, const ViewOptions& options) {
   const XYZ white = unit_xyz(kD65);
-  return {{channel.name}, Matrix3(white[0], 0, 0, white[1], 0, 0, white[2], 0, 0), {}, options};
+  return {{channel.name}, Matrix3(white[0], 0, 0, white[1], 0, 0, white[2], 0, 0), options};
 }
 
-// Correction and matrix from film values of three sensor channels to XYZ in the light.
-std::pair<CorrectionFit, Matrix3> fit_channels(const std::vector<Channel>& channels,
-                                               const std::vector<std::string>& names,
-                                               const Curve& illuminant) {
-  Diagnostics diagnostics;
-  const std::optional<Chart> chart = load_chart(kChart, {}, diagnostics);
-  if (!chart) throw Error(diagnostics.code(), kChart, diagnostics.text());
+// Matrix from film values of three sensor channels to XYZ in the light.
+Matrix3 fitted_matrix(const std::vector<Channel>& channels, const std::vector<std::string>& names,
+                      const Curve& illuminant) {
+  const Chart chart = shipped_chart(kChart);
   try {
     const std::vector<double> diffuser = diffuser_values(channels, illuminant);
-    CorrectionFit fit = fit_correction(integrate(*chart, channels, illuminant));
+    const CorrectionFit fit = fit_correction(integrate(chart, channels, illuminant));
     const Matrix3 balance = diagonal({diffuser[1] / diffuser[0], 1, diffuser[1] / diffuser[2]});
-    const Matrix3 to_xyz = linear_part(fit.correction) * balance;
-    return {std::move(fit), to_xyz};
+    return linear_part(fit.correction) * balance;
   } catch (const Error& error) {
     if (error.code != ErrorCode::input) throw;
     throw Error(ErrorCode::usage, "display",
@@ -249,8 +245,8 @@ std::vector<std::string> view_names(const ViewOptions& options) {
 }
 
 DisplayTransform::DisplayTransform(std::vector<std::string> channels, const Matrix3& to_xyz_d65,
-                                   std::optional<CorrectionFit> fit, const ViewOptions& options)
-    : channels_(std::move(channels)), to_xyz_d65_(to_xyz_d65), fit_(std::move(fit)) {
+                                   const ViewOptions& options)
+    : channels_(std::move(channels)), to_xyz_d65_(to_xyz_d65) {
   require_displayable(channels_.size());
   const bool is_builtin = options.config.empty();
   try {
@@ -341,9 +337,8 @@ DisplayTransform make_display(const std::vector<Channel>& channels, const Curve&
   const std::optional<Observer> observer = standard_observer(channels);
   const FilmObserver film_observer{observer.value_or(Observer::cie1931)};
   const Matrix3 adapted = white_adaptation(white.value_or(chromaticity(illuminant, film_observer)));
-  if (observer) return {std::move(names), adapted, {}, options};
-  auto [fit, to_xyz] = fit_channels(channels, names, illuminant);
-  return {std::move(names), adapted * to_xyz, std::move(fit), options};
+  const Matrix3 to_xyz = observer ? Matrix3() : fitted_matrix(channels, names, illuminant);
+  return {std::move(names), adapted * to_xyz, options};
 }
 
 std::optional<std::array<double, 3>> brightest_neutral(const Matrix3& to_xyz_d65,

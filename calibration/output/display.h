@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "calibration/fit/correction.h"
 #include "calibration/output/color_spaces.h"
 #include "io/image.h"
 #include "sensor/response/channel.h"
@@ -58,13 +57,12 @@ struct ViewOptions {
 class DisplayTransform {
  public:
   /// `channels` names the film channels in order, one or three of them. `to_xyz_d65` converts their values to
-  /// XYZ relative to D65; for one channel only its first column counts. `fit` is not used for pictures:
-  /// `fit()` returns it.
+  /// XYZ relative to D65; for one channel only its first column counts.
   /// A user's configuration receives ACES2065-1: it needs the role `aces_interchange`, or that space by name.
   /// Throws Error{usage} for another number of channels and for an unknown display or view, Error{input} for
   /// an unusable configuration.
   DisplayTransform(std::vector<std::string> channels, const Matrix3& to_xyz_d65,
-                   std::optional<CorrectionFit> fit = {}, const ViewOptions& options = {});
+                   const ViewOptions& options = {});
 
   /// Converts a film. The steps are:
   /// - multiply by `scale` > 0, by default `automatic_scale`;
@@ -86,14 +84,11 @@ class DisplayTransform {
   [[nodiscard]] const Matrix3& to_xyz_d65() const { return to_xyz_d65_; }
   /// Files of the user's configuration: itself and the tables that the view uses. Empty for Abbe's own.
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
-  /// Fit of the matrix; empty if the matrix follows from the channels.
-  [[nodiscard]] const std::optional<CorrectionFit>& fit() const { return fit_; }
 
  private:
   struct Processor;
   std::vector<std::string> channels_;
   Matrix3 to_xyz_d65_;
-  std::optional<CorrectionFit> fit_;
   std::vector<std::filesystem::path> files_;
   std::shared_ptr<const Processor> processor_;
 };

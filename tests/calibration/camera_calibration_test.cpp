@@ -22,7 +22,7 @@ CalibrationSetup setup(const std::string& response, int bits = 12) {
 CharacterisationOptions hardly_judged() {
   CharacterisationOptions options;
   options.folds = 2;
-  options.bootstrap.replicates = 2;
+  options.bootstrap_draws = 2;
   return options;
 }
 
@@ -104,8 +104,8 @@ TEST(CameraCalibration, ProfileHasTheNamesOfTheChannels) {
 // One patch is brighter than the diffuser, as a fluorescent one may be; the profile records its measured
 // value.
 TEST(CameraCalibration, ProfileTellsTheBrightestPatch) {
-  MeasuredCamera camera{"mine", "D65", test::nikon("D65"), {1 / 2000.0, 1 / 3500.0, 1 / 3000.0}, {}};
-  camera.colors.raw[4] = {0.5, 1.2, 0.9};
+  MeasuredCamera camera{"mine", "D65", {test::nikon("D65"), {1 / 2000.0, 1 / 3500.0, 1 / 3000.0}}, {}};
+  camera.chart.colors.raw[4] = {0.5, 1.2, 0.9};
   CharacterisationOptions options = hardly_judged();
   options.fit.objective = Objective::xyz;
   EXPECT_NEAR(calibrate_measured(camera, options).profile.brightest_patch, 4200, 1e-9);

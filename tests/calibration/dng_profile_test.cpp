@@ -16,7 +16,7 @@ using test::expect_near;
 
 CameraCalibration calibration(const std::string& light, const std::string& response = "") {
   CharacterisationOptions options;
-  options.bootstrap.replicates = 2;
+  options.bootstrap_draws = 2;
   return calibrate_camera(
       {"Nikon_D5100", light, response, 0, test::camera(), test::illuminant(light), test::chart()}, options);
 }

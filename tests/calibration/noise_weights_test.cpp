@@ -32,19 +32,19 @@ TEST(NoiseWeights, LetAFitForgetPatchesThatAreNothingButNoise) {
   const PatchColors clean = integrated();
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0, 0.2);
-  MeasuredCamera camera{"ruined", "D65", clean, {1, 1, 1}, {}};
-  camera.deviations.assign(clean.raw.size(), {1e-4, 1e-4, 1e-4});
+  MeasuredCamera camera{"ruined", "D65", {clean}, {}};
+  camera.chart.deviations.assign(clean.raw.size(), {1e-4, 1e-4, 1e-4});
   for (const std::size_t i : {1U, 8U, 14U, 17U}) {
-    camera.deviations[i] = {0.2, 0.2, 0.2};
-    for (double& v : camera.colors.raw[i]) v = std::abs(v + noise(random));
+    camera.chart.deviations[i] = {0.2, 0.2, 0.2};
+    for (double& v : camera.chart.colors.raw[i]) v = std::abs(v + noise(random));
   }
   CharacterisationOptions options;
-  options.bootstrap.replicates = 2;
+  options.bootstrap_draws = 2;
   const auto mean_on_clean = [&] {
     return patch_errors(clean, calibrate_measured(camera, options).correction.correction).mean;
   };
   const double weighed = mean_on_clean();
-  camera.deviations.clear();
+  camera.chart.deviations.clear();
   const double alike = mean_on_clean();
   const double best = fit_correction(clean).errors.mean;
   EXPECT_LT(weighed, best + 0.1);
@@ -56,7 +56,7 @@ TEST(Calibration, IsLinearUnlessAResponseIsPlanted) {
                                 test::illuminant("D65"), test::chart()};
   CharacterisationOptions options;
   options.folds = 2;
-  options.bootstrap.replicates = 2;
+  options.bootstrap_draws = 2;
   const CameraCalibration made = calibrate_camera(linear, options);
   EXPECT_TRUE(made.responses.empty());
   EXPECT_TRUE(made.profile.linearisation[0].empty());
@@ -74,10 +74,10 @@ TEST(Calibration, TrainsOnOtherReflectancesAndJudgesTheChart) {
                          test::chart(),
                          test::chart("rawtoaces_190_patches")};
   CharacterisationOptions options;
-  options.bootstrap.replicates = 2;
+  options.bootstrap_draws = 2;
   const CameraCalibration trained = calibrate_camera(setup, options);
   EXPECT_EQ(trained.training_patches, 190U);
-  EXPECT_EQ(trained.patches.size(), 24U);
+  EXPECT_EQ(trained.colors.names.size(), 24U);
   EXPECT_EQ(trained.unseen.delta_e, trained.correction.errors.delta_e) << "no patch of the chart was fitted";
   const double own = fit_correction(integrated()).errors.mean;
   EXPECT_GT(trained.correction.errors.mean, own);
@@ -89,7 +89,7 @@ TEST(Calibration, ChoosesTheModelThatShowsUnseenPatchesBest) {
                          test::illuminant("D65"), test::chart()};
   CharacterisationOptions options;
   options.choose = true;
-  options.bootstrap.replicates = 2;
+  options.bootstrap_draws = 2;
   const CameraCalibration real = calibrate_camera(setup, options);
   ASSERT_EQ(real.candidates.size(), 2U) << "24 patches are too few for 13 terms";
   EXPECT_EQ(real.candidates[0].model, CorrectionModel::root_polynomial_2);

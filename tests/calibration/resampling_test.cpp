@@ -53,10 +53,10 @@ TEST(Bootstrap, IntervalOfAMeanIsTwoStandardErrorsWide) {
   for (double& v : values) v = normal(random);
   double mean = 0;
   for (const double v : values) mean += v / 400;
-  const Interval interval = bootstrap_mean(values, {4000, 1});
+  const Interval interval = bootstrap_mean(values, 4000);
   EXPECT_NEAR(interval.low, mean - 1.96 * 0.1, 0.02);
   EXPECT_NEAR(interval.high, mean + 1.96 * 0.1, 0.02);
-  EXPECT_EQ(bootstrap_mean(values, {4000, 1}).low, interval.low);
+  EXPECT_EQ(bootstrap_mean(values, 4000).low, interval.low);
 }
 
 TEST(Bootstrap, ColumnsOfAnExactCorrectionHaveNoSpread) {
@@ -64,7 +64,7 @@ TEST(Bootstrap, ColumnsOfAnExactCorrectionHaveNoSpread) {
   const Matrix3 planted(0.6, 0.25, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 1.2);
   colors.white = multiply(planted, {1, 1, 1});
   for (std::size_t i = 0; i < colors.raw.size(); ++i) colors.xyz[i] = multiply(planted, colors.raw[i]);
-  const auto columns = bootstrap_columns(colors, {}, {20, 1});
+  const auto columns = bootstrap_columns(colors, {}, 20);
   ASSERT_EQ(columns.size(), 3U);
   for (int t = 0; t < 3; ++t)
     for (int i = 0; i < 3; ++i) {
@@ -72,7 +72,7 @@ TEST(Bootstrap, ColumnsOfAnExactCorrectionHaveNoSpread) {
       EXPECT_NEAR(interval.low, planted[i][t], 1e-5);
       EXPECT_NEAR(interval.high, planted[i][t], 1e-5);
     }
-  const auto real = bootstrap_columns(nikon("D65"), {}, {20, 1});
+  const auto real = bootstrap_columns(nikon("D65"), {}, 20);
   EXPECT_GT(real[0][0].high, real[0][0].low + 0.01);
 }
 

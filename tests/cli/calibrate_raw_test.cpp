@@ -99,7 +99,7 @@ std::filesystem::path write_mosaic_series() {
 // Camera values of the chart under D65, with the perfect diffuser. One patch has a clipped green value.
 CalibrateOptions measured(const std::string& unit, double white, const std::string& clipped = "") {
   CalibrateOptions options;
-  options.how.bootstrap.replicates = 2;
+  options.how.bootstrap_draws = 2;
   options.measured = scratch() / "raw_patches.csv";
   Diagnostics diagnostics;
   const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
@@ -152,7 +152,7 @@ std::filesystem::path write_chart(double gamma, bool is_noisy,
 // without noise.
 TEST(CalibrateRaw, NoiseIsMadeLinearWithTheValues) {
   CalibrateOptions options;
-  options.how.bootstrap.replicates = 2;
+  options.how.bootstrap_draws = 2;
   options.how.fit.objective = Objective::xyz;
   const auto shifts = [&](double gamma) {
     std::vector<double> shift(24, 0);
@@ -174,7 +174,7 @@ TEST(CalibrateRaw, NoiseIsMadeLinearWithTheValues) {
 // listing declares.
 TEST(CalibrateRaw, ValuesOfPicturesAreSharesOfTheListedFullScale) {
   CalibrateOptions options;
-  options.how.bootstrap.replicates = 2;
+  options.how.bootstrap_draws = 2;
   options.measured = write_chart(1, false);
   const double plain = json_output(calibrate, options)["dE00_mean"];
   options.series = write_picture_series(2.2);

@@ -23,7 +23,7 @@ using namespace abbe::cli;
 CalibrateOptions nikon() {
   CalibrateOptions options;
   options.camera = "Nikon_D5100";
-  options.how.bootstrap.replicates = 2;
+  options.how.bootstrap_draws = 2;
   return options;
 }
 
@@ -243,7 +243,7 @@ TEST(Calibrate, AFolderHoldsOneCalibration) {
 
 TEST(Calibrate, FaultsOfMeasuredValuesAreSentences) {
   CalibrateOptions options;
-  options.how.bootstrap.replicates = 2;
+  options.how.bootstrap_draws = 2;
   options.measured = scratch() / "patches.csv";
   const auto with = [&](const std::string& text) {
     std::ofstream(options.measured) << text;
