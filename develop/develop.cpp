@@ -104,13 +104,12 @@ void record_unit(const char* unit, std::map<std::string, std::string>& metadata)
 // Records the meaning of the numbers in a raw file.
 void record_codes(const FilmSensor& sensor, std::map<std::string, std::string>& metadata) {
   const Readout& readout = *sensor.readout;
-  metadata[kCodesKey] =
-      fmt::format("digital numbers 0 to {}, linear, not scaled to 16 bits", readout.highest_code());
-  if (readout.response_curve)
-    metadata[kCodesKey] = fmt::format("digital numbers 0 to {}, by a response curve", readout.highest_code());
+  metadata["codes"] =
+      fmt::format("digital numbers 0 to {}, {}", readout.highest_code(),
+                  readout.response_curve ? "by a response curve" : "linear, not scaled to 16 bits");
   metadata[kBlackLevelKey] = fmt::format("{}", black_level(sensor));
   metadata[kWhiteLevelKey] = fmt::format("{}", white_level(readout));
-  metadata[kGainKey] = fmt::format("{}", readout.gain_e_per_dn);
+  metadata["gain_e_per_dn"] = fmt::format("{}", readout.gain_e_per_dn);
 }
 
 // Film values at which the channels of a picture saturate; empty for a sensor without a readout or without
@@ -139,19 +138,12 @@ bool has_pixel_at(const Image& planes, const std::vector<std::string>& channels,
   });
 }
 
-// Mean of a plane's values over disjoint areas of the film.
+// Mean of a plane's values over pixels.
 template <typename Value>
-double mean(const Image& film, const std::vector<Crop>& areas, const std::vector<Value>& values) {
+double mean(const std::vector<std::size_t>& pixels, const std::vector<Value>& values) {
   double sum = 0;
-  double count = 0;
-  for (const Crop& area : areas) {
-    for (int y = area.y0; y < area.y1; ++y)
-      for (int x = area.x0; x < area.x1; ++x)
-        sum += static_cast<double>(values[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width) +
-                                          static_cast<std::size_t>(x)]);
-    count += static_cast<double>(pixel_count(area));
-  }
-  return sum / count;
+  for (const std::size_t pixel : pixels) sum += static_cast<double>(values[pixel]);
+  return sum / static_cast<double>(pixels.size());
 }
 
 }  // namespace
@@ -190,8 +182,7 @@ std::optional<std::string> unequal_dark_signals_warning(const FilmSensor& sensor
 }
 
 std::uint64_t render_seed(const Image& film) {
-  const auto seed = film.metadata.find("seed");
-  return seed == film.metadata.end() ? 0 : static_cast<std::uint64_t>(parse_number(seed->second).value_or(0));
+  return static_cast<std::uint64_t>(number_of(film.metadata, "seed").value_or(0));
 }
 
 Image display_planes(const FilmSensor& sensor, const Image& calibrated) {
@@ -218,8 +209,8 @@ double display_white(const FilmSensor& sensor, const Image& planes) {
 std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor, const DevelopedFilm& developed) {
   const double unit = sensor.readout ? sensor.gathering_area_m2 : 1;
   const Image& counted = sensor.readout ? developed.electrons : developed.exposure;
-  const std::vector<Crop> rendered = recorded_areas(developed.exposure);
-  const auto over_film = [&](const auto& values) { return mean(developed.exposure, rendered, values); };
+  const std::vector<std::size_t> rendered = recorded_pixels(developed.exposure);
+  const auto over_film = [&](const auto& values) { return mean(rendered, values); };
   const std::vector<double> own_seconds = pixel_exposures(sensor, developed.exposure);
   const bool is_known = !has_unknown_error(developed.exposure.metadata);
   std::vector<PlaneFigures> all;

@@ -8,14 +8,10 @@
 
 namespace abbe {
 
-/// Attribute of raw files: the meaning of the numbers, in words.
-inline constexpr const char* kCodesKey = "codes";
 /// Attribute of raw files: the code expected without light (`black_level`) [DN].
 inline constexpr const char* kBlackLevelKey = "black_level_dn";
 /// Attribute of raw files: the lowest code of saturated pixels (`white_level`) [DN].
 inline constexpr const char* kWhiteLevelKey = "white_level_dn";
-/// Attribute of raw files: the gain [electrons per DN].
-inline constexpr const char* kGainKey = "gain_e_per_dn";
 
 /// The planes of a film at each step from exposure to digital numbers, in the order of `FilmSensor::planes`.
 /// Film values are exposures, in the unit that the attribute `channel.<name>` states.

@@ -1,4 +1,3 @@
-// Exposure times of films, and calibration frames.
 #include "develop/film_sensor.h"
 
 #include <algorithm>
@@ -7,9 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/output/display.h"
 #include "io/error.h"
-#include "io/json.h"
 #include "io/text.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_attributes.h"
@@ -28,8 +25,7 @@ struct Metadata {
   const std::filesystem::path& path;
 
   [[nodiscard]] std::optional<std::string> find(const std::string& key) const {
-    const auto found = film.metadata.find(key);
-    return found == film.metadata.end() ? std::nullopt : std::optional(found->second);
+    return attribute_of(film.metadata, key);
   }
   [[nodiscard]] std::string text(const std::string& key) const {
     if (auto found = find(key)) return *std::move(found);
@@ -88,8 +84,7 @@ std::string text_in(const JsonValue& object, const char* key) {
 
 void require_one_conversion(std::span<const Override> overrides) {
   const auto sets = [&](std::string_view pointer) {
-    return std::any_of(overrides.begin(), overrides.end(),
-                       [&](const Override& o) { return o.pointer == pointer; });
+    return std::ranges::find(overrides, pointer, &Override::pointer) != overrides.end();
   };
   if (sets(kIsoPointer) && sets(kGainPointer))
     throw Error(ErrorCode::usage, kIsoPointer,
@@ -162,13 +157,15 @@ std::optional<DisplayTransform> read_display(const Metadata& data, FilmSensor& s
   return DisplayTransform(sensor.channels, *matrix, view);
 }
 
-void scale_plane(Image& film, const std::string& name, double factor) {
+// Replaces the values of a plane, if the film has it, by a function of them.
+template <typename F>
+void map_plane(Image& film, const std::string& name, const F& f) {
   for (ImageChannel& channel : film.channels)
     if (channel.name == name)
-      for (float& value : channel.values) value = static_cast<float>(static_cast<double>(value) * factor);
+      for (float& value : channel.values) value = static_cast<float>(f(static_cast<double>(value)));
 }
 
-// The film's sensor description. It was parsed before, so errors are ignored.
+// The sensor description, which was parsed before, so that errors are ignored.
 std::optional<JsonValue> spec_of(const FilmSensor& sensor) {
   Diagnostics none;
   return parse_json(std::make_shared<const SourceText>(SourceText{"", sensor.description}), none);
@@ -180,8 +177,7 @@ double* number_in(JsonValue* spec, const char* key) {
   return member != nullptr ? std::get_if<double>(&member->value) : nullptr;
 }
 
-// Updates the exposure times in the description: of the sensor, of channels, and of the shutter, whose times
-// scale.
+// Updates the exposure times in the description: of sensor, channels and shutter.
 void describe_exposure(FilmSensor& sensor, double factor) {
   std::optional<JsonValue> spec = spec_of(sensor);
   if (!spec) return;
@@ -219,25 +215,15 @@ void set_exposure(ExposedFilm& exposed, double factor) {
   record_exposure(exposed, factor);
 }
 
-void fill_plane(Image& film, const std::string& name, double value) {
-  for (ImageChannel& channel : film.channels)
-    if (channel.name == name)
-      std::fill(channel.values.begin(), channel.values.end(), static_cast<float>(value));
-}
-
-bool is_zero(const JsonValue& spec) {
-  const auto* number = std::get_if<double>(&spec.value);
-  return number != nullptr && *number == 0;
-}
-
 // True if the transmission of the film's shutter varies during the exposure or between rows.
 bool has_shaped_shutter(const FilmSensor& sensor) {
   const std::optional<JsonValue> spec = spec_of(sensor);
   const JsonValue* shutter = spec ? spec->find("shutter") : nullptr;
   constexpr std::array kShapes{"rise_s", "fall_s", "transmission", "row_delay_s"};
-  return shutter != nullptr && std::any_of(kShapes.begin(), kShapes.end(), [&](const char* key) {
+  return shutter != nullptr && std::ranges::any_of(kShapes, [&](const char* key) {
            const JsonValue* shape = shutter->find(key);
-           return shape != nullptr && !is_zero(*shape);
+           const auto* number = shape != nullptr ? std::get_if<double>(&shape->value) : nullptr;
+           return shape != nullptr && !(number != nullptr && *number == 0);
          });
 }
 
@@ -311,8 +297,8 @@ void expose_for(ExposedFilm& exposed, double seconds, Diagnostics& diagnostics) 
   const double factor = seconds / stated_exposure(sensor);
   if (factor != 1) warn_of_shutter(sensor, diagnostics);
   for (const std::string& plane : sensor.planes) {
-    scale_plane(exposed.film, plane, factor);
-    scale_plane(exposed.film, variance_of(plane), factor * factor);
+    map_plane(exposed.film, plane, [factor](double value) { return value * factor; });
+    map_plane(exposed.film, variance_of(plane), [factor](double value) { return value * (factor * factor); });
   }
   set_exposure(exposed, factor);
 }
@@ -326,8 +312,8 @@ void replace_with_frame(ExposedFilm& exposed, const CalibrationFrame& frame) {
   const double light =
       flat ? flat->saturation_fraction * saturation_electrons(*sensor.readout) / sensor.gathering_area_m2 : 0;
   for (const std::string& plane : sensor.planes) {
-    fill_plane(exposed.film, plane, light);
-    fill_plane(exposed.film, variance_of(plane), 0);
+    map_plane(exposed.film, plane, [light](double) { return light; });
+    map_plane(exposed.film, variance_of(plane), [](double) { return 0; });
   }
   exposed.film.metadata[kFrameKey] = flat                                       ? kFlatFrame
                                      : std::holds_alternative<DarkFrame>(frame) ? "dark"

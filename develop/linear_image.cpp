@@ -10,24 +10,17 @@
 #include "develop/develop.h"
 #include "develop/film_file.h"
 #include "io/error.h"
-#include "io/image.h"
 #include "io/picture.h"
 #include "io/raw_picture.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
 #include "sensor/film/crop.h"
 #include "sensor/film/film_planes.h"
-#include "sensor/film/patch.h"
 #include "sensor/film/recorded_attributes.h"
 #include "sensor/response/polarised_channels.h"
 
 namespace abbe {
 namespace {
-
-std::optional<std::string> attribute(const Image& image, const std::string& key) {
-  const auto found = image.metadata.find(key);
-  return found == image.metadata.end() ? std::nullopt : std::optional(found->second);
-}
 
 // Reads the mosaic that a film or raw file of Abbe records.
 void read_mosaic(LinearImage& read) {
@@ -41,7 +34,7 @@ void read_mosaic(LinearImage& read) {
 // name.
 void keep_planes(Image& image) {
   std::vector<std::string> order = intensities(plane_names(image));
-  if (!attribute(image, "sensor_channels") && !is_spectral(image)) {
+  if (!image.metadata.contains("sensor_channels") && !is_spectral(image)) {
     std::erase_if(order, [](const std::string& name) { return name.find('.') != std::string::npos; });
     if (const auto rgb = rgb_order(order)) order = {order[(*rgb)[0]], order[(*rgb)[1]], order[(*rgb)[2]]};
   }
@@ -92,7 +85,7 @@ LinearImage linear_raw(const std::filesystem::path& path, Inputs* inputs) {
   read_mosaic(read);
   const RawScale scale = raw.is_linearised ? RawScale{} : raw_scale(read.image).value_or(RawScale{});
   // DNG tags have at most single precision, the attribute has more.
-  const auto black = parse_number(attribute(read.image, kBlackLevelKey).value_or(""));
+  const auto black = number_of(read.image.metadata, kBlackLevelKey);
   subtract_black(read, scale, black.value_or(raw.black_level_dn), raw.white_level_dn);
   use_corrected(read, raw, inputs, path.string());
   return read;
@@ -116,8 +109,8 @@ void require_codes(const Image& image, const std::filesystem::path& path) {
 LinearImage linear_picture(const std::filesystem::path& path, Inputs* inputs) {
   LinearImage read{read_picture(path, inputs), {}, {}, 1.0, kCodeValues};
   add_description_attributes(read.image);
-  const auto black = parse_number(attribute(read.image, kBlackLevelKey).value_or(""));
-  const auto white = parse_number(attribute(read.image, kWhiteLevelKey).value_or(""));
+  const auto black = number_of(read.image.metadata, kBlackLevelKey);
+  const auto white = number_of(read.image.metadata, kWhiteLevelKey);
   if (black && white)
     name_planes(read.image);
   else
@@ -133,20 +126,25 @@ LinearImage linear_picture(const std::filesystem::path& path, Inputs* inputs) {
   return read;
 }
 
+// Index of the channel that a pixel of a plane records.
+std::size_t channel_of(const LinearImage& image, std::size_t plane, std::size_t pixel) {
+  const auto width = static_cast<std::size_t>(image.image.width);
+  if (!image.mosaic) return plane;
+  return static_cast<std::size_t>(
+      image.mosaic->at(static_cast<int>(pixel % width), static_cast<int>(pixel / width)));
+}
+
 // Mean over the pixels of each channel.
 std::vector<double> channel_means(const LinearImage& image) {
-  const std::vector<double>::size_type count = image.channels.size();
-  std::vector<double> sums(count, 0);
-  std::vector<double> pixels(count, 0);
+  std::vector<double> sums(image.channels.size(), 0);
+  std::vector<double> pixels(image.channels.size(), 0);
   for (std::size_t k = 0; k < image.image.channels.size(); ++k)
     for (std::size_t i = 0; i < image.image.pixels(); ++i) {
-      const int x = static_cast<int>(i % static_cast<std::size_t>(image.image.width));
-      const int y = static_cast<int>(i / static_cast<std::size_t>(image.image.width));
-      const std::size_t channel = image.mosaic ? static_cast<std::size_t>(image.mosaic->at(x, y)) : k;
+      const std::size_t channel = channel_of(image, k, i);
       sums[channel] += static_cast<double>(image.image.channels[k].values[i]);
       pixels[channel] += 1;
     }
-  for (std::size_t k = 0; k < count; ++k) sums[k] /= pixels[k];
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= pixels[k];
   return sums;
 }
 
@@ -161,10 +159,8 @@ void require_unsaturated(const LinearImage& flat, const std::filesystem::path& p
   if (!flat.saturation) return;
   double saturated = 0;
   for (const ImageChannel& channel : flat.as_exposed())
-    saturated +=
-        static_cast<double>(std::count_if(channel.values.begin(), channel.values.end(), [&](float value) {
-          return static_cast<double>(value) >= *flat.saturation;
-        }));
+    saturated += static_cast<double>(std::ranges::count_if(
+        channel.values, [&](float value) { return static_cast<double>(value) >= *flat.saturation; }));
   const auto pixels = static_cast<double>(flat.image.pixels() * flat.image.channels.size());
   if (exceeds_defects(saturated, pixels))
     throw Error(
@@ -214,11 +210,8 @@ void flat_field(LinearImage& image, const LinearImage& flat, const std::filesyst
   const std::vector<double> means = channel_means(flat);
   for (std::size_t k = 0; k < image.image.channels.size(); ++k)
     for (std::size_t i = 0; i < image.image.pixels(); ++i) {
-      const int x = static_cast<int>(i % static_cast<std::size_t>(image.image.width));
-      const int y = static_cast<int>(i / static_cast<std::size_t>(image.image.width));
-      const std::size_t channel = image.mosaic ? static_cast<std::size_t>(image.mosaic->at(x, y)) : k;
       float& own = image.image.channels[k].values[i];
-      own = static_cast<float>(static_cast<double>(own) * means[channel] /
+      own = static_cast<float>(static_cast<double>(own) * means[channel_of(image, k, i)] /
                                static_cast<double>(flat.image.channels[k].values[i]));
     }
 }

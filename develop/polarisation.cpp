@@ -3,13 +3,11 @@
 #include <array>
 #include <map>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "develop/radiance.h"
 #include "io/error.h"
-#include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_attributes.h"
 #include "sensor/film/spectral_film.h"
 #include "sensor/readout/demosaic.h"
@@ -38,8 +36,7 @@ Image luminances(const Image& film) {
 
 // Luminance per unit of each channel; 1 if colours are unknown.
 std::vector<double> weights_of(const Image& film, std::size_t channels) {
-  const auto recorded = film.metadata.find("to_xyz_d65");
-  const auto matrix = recorded != film.metadata.end() ? parse_matrix3(recorded->second) : std::nullopt;
+  const auto matrix = parse_matrix3(attribute_of(film.metadata, "to_xyz_d65").value_or(""));
   std::vector<double> weights(channels, 1.0);
   if (matrix && channels == 3)
     for (int k = 0; k < 3; ++k) weights[static_cast<std::size_t>(k)] = (*matrix)[1][k];
@@ -57,8 +54,7 @@ std::map<std::string, std::vector<Measurement>> groups_of(const Image& planes,
                                                           const std::vector<std::string>& names) {
   std::map<std::string, std::vector<Measurement>> groups;
   for (const std::string& name : names) {
-    const auto recorded = planes.metadata.find(kAnalyserKey + name);
-    const auto row = recorded != planes.metadata.end() ? parse_polariser_row(recorded->second) : std::nullopt;
+    const auto row = parse_polariser_row(attribute_of(planes.metadata, kAnalyserKey + name).value_or(""));
     const ImageChannel* plane = planes.find(name);
     if (row && plane != nullptr) groups[row->group].push_back({*row, plane});
   }

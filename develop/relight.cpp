@@ -25,11 +25,8 @@ namespace {
 // The lights that have layers in the film.
 std::vector<std::string> lights_of(const Image& film) {
   std::vector<std::string> lights;
-  const auto recorded = film.metadata.find(kLayersKey);
-  if (recorded != film.metadata.end())
-    for (const std::string& layer : split(recorded->second, ','))
-      if (layer.starts_with(kLightLayer))
-        lights.push_back(layer.substr(std::string_view(kLightLayer).size()));
+  for (const std::string& layer : split(attribute_of(film.metadata, kLayersKey).value_or(""), ','))
+    if (layer.starts_with(kLightLayer)) lights.push_back(layer.substr(std::string_view(kLightLayer).size()));
   if (lights.empty())
     throw Error(ErrorCode::usage, "--light",
                 "the film has no layers of lights: render it with --layers lights");
@@ -44,9 +41,8 @@ std::string layer_of(const std::string& light, const std::string& plane) {
 std::vector<std::string> planes_with_layers(const Image& film, const std::vector<std::string>& lights) {
   std::vector<std::string> planes = plane_names(film);
   std::erase_if(planes, [&](const std::string& plane) {
-    return std::any_of(lights.begin(), lights.end(), [&](const std::string& light) {
-      return film.find(layer_of(light, plane)) == nullptr;
-    });
+    return std::ranges::any_of(
+        lights, [&](const std::string& light) { return film.find(layer_of(light, plane)) == nullptr; });
   });
   if (planes.empty())
     throw Error(ErrorCode::usage, "--light",
@@ -59,13 +55,12 @@ std::vector<std::vector<double>> factors_by_light(const std::vector<std::string>
                                                   std::span<const LightFactor> factors) {
   std::vector<std::vector<double>> all(lights.size(), std::vector<double>(planes, 1));
   for (const LightFactor& requested : factors) {
-    const auto light = std::find(lights.begin(), lights.end(), requested.light);
+    const auto light = std::ranges::find(lights, requested.light);
     if (light == lights.end())
       throw Error(ErrorCode::usage, "--light",
                   fmt::format("the film has no layer of this light (got \"{}\", allowed {})", requested.light,
                               fmt::join(lights, ", ")));
-    if (std::count_if(factors.begin(), factors.end(),
-                      [&](const LightFactor& other) { return other.light == requested.light; }) > 1)
+    if (std::ranges::count(factors, requested.light, &LightFactor::light) > 1)
       throw Error(ErrorCode::usage, "--light", fmt::format("{} is named twice", requested.light));
     if (requested.factors.size() != 1 && requested.factors.size() != planes)
       throw Error(
@@ -98,8 +93,7 @@ double variance_bound(double film, std::span<const double> layers, std::span<con
 }
 
 ImageChannel* find(Image& image, const std::string& name) {
-  const auto found = std::find_if(image.channels.begin(), image.channels.end(),
-                                  [&name](const ImageChannel& channel) { return channel.name == name; });
+  const auto found = std::ranges::find(image.channels, name, &ImageChannel::name);
   return found == image.channels.end() ? nullptr : &*found;
 }
 
@@ -112,7 +106,7 @@ void relight_plane(Image& film, const std::string& plane, const std::vector<std:
     layers.push_back(film.find(layer_of(light, plane)));
     variances.push_back(film.find(variance_of(layer_of(light, plane))));
   }
-  const bool known = std::find(variances.begin(), variances.end(), nullptr) == variances.end();
+  const bool known = std::ranges::find(variances, nullptr) == variances.end();
   ImageChannel& values = *find(film, plane);
   ImageChannel* variance = find(film, variance_of(plane));
   std::vector<double> of_layers(lights.size());
@@ -143,13 +137,13 @@ void drop_layers(Image& film) {
 void relight_preview(Image& film, const std::vector<std::string>& planes,
                      const std::vector<std::string>& lights,
                      const std::vector<std::vector<double>>& by_light) {
-  const bool dimmed = std::all_of(by_light.begin(), by_light.end(), [](const std::vector<double>& factors) {
-    return std::adjacent_find(factors.begin(), factors.end(), std::not_equal_to<>()) == factors.end();
+  const bool dimmed = std::ranges::all_of(by_light, [](const std::vector<double>& factors) {
+    return std::ranges::adjacent_find(factors, std::not_equal_to<>()) == factors.end();
   });
   std::vector<std::string> previews;
   for (const ImageChannel& channel : film.channels)
     if (film.find(layer_of(lights.front(), channel.name)) != nullptr &&
-        std::find(planes.begin(), planes.end(), channel.name) == planes.end())
+        std::ranges::find(planes, channel.name) == planes.end())
       previews.push_back(channel.name);
   std::vector<double> of_lights;
   for (const std::vector<double>& factors : by_light) of_lights.push_back(factors.front());

@@ -13,6 +13,7 @@
 #include "io/error.h"
 #include "io/schema/read.h"
 #include "io/text.h"
+#include "sensor/film/crop.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/patch.h"
 
@@ -23,11 +24,6 @@ constexpr int kGridColumns = 16;
 constexpr int kGridRows = 12;
 // Relative error of pixels in single precision; neighbouring codes of 16 bits differ by 15 times as much.
 constexpr double kRounding = 1e-6;
-
-// Pixels of one patch, the last column and row excluded.
-struct Region {
-  int x0, y0, x1, y1;
-};
 
 struct Photograph {
   std::string file;  // relative to the listing while that is being read
@@ -40,7 +36,7 @@ using Edges = std::array<int, 4>;
 struct Listing {
   std::vector<Photograph> photographs;
   std::vector<schema::Located<Edges>> edges;
-  std::vector<Region> regions;  // built from `edges`
+  std::vector<Crop> regions;  // built from `edges`
   std::optional<double> full_scale;
   std::optional<int> bits;
 };
@@ -75,8 +71,8 @@ schema::Fields fields(schema::Tag<Listing>) {
            "Bits to which codes were rounded, 0 if unknown; by default the number that the file records.")});
 }
 
-std::vector<Region> build_regions(const Listing& listing, Diagnostics& diagnostics) {
-  std::vector<Region> regions;
+std::vector<Crop> build_regions(const Listing& listing, Diagnostics& diagnostics) {
+  std::vector<Crop> regions;
   for (const auto& spec : listing.edges) {
     const auto& [x0, y0, x1, y1] = spec.value;
     regions.push_back({x0, y0, x1, y1});
@@ -86,25 +82,19 @@ std::vector<Region> build_regions(const Listing& listing, Diagnostics& diagnosti
   return regions;
 }
 
-std::optional<Listing> parse_listing(const std::shared_ptr<const SourceText>& source,
-                                     Diagnostics& diagnostics) {
-  const std::optional<JsonValue> root = parse_json(source, diagnostics);
-  auto listing = root ? schema::read<Listing>(*root, diagnostics) : std::nullopt;
-  if (listing) listing->regions = build_regions(*listing, diagnostics);
-  return diagnostics.has_errors() ? std::nullopt : listing;
-}
-
 // Reads the listing. Its errors are reported as errors of an input, not of a scene.
 std::optional<Listing> read_listing(const std::filesystem::path& path, Diagnostics& diagnostics) {
   const auto source = read_text(path, diagnostics);
   if (!source) return std::nullopt;
   Diagnostics faults;
-  std::optional<Listing> listing = parse_listing(source, faults);
+  const std::optional<JsonValue> root = parse_json(source, faults);
+  auto listing = root ? schema::read<Listing>(*root, faults) : std::nullopt;
+  if (listing) listing->regions = build_regions(*listing, faults);
   for (const Diagnostic& fault : faults.all())
     diagnostics.error(fault.where, fault.message, ErrorCode::input);
-  if (listing)
-    for (Photograph& photograph : listing->photographs)
-      photograph.file = (path.parent_path() / photograph.file).string();
+  if (faults.has_errors() || !listing) return std::nullopt;
+  for (Photograph& photograph : listing->photographs)
+    photograph.file = (path.parent_path() / photograph.file).string();
   return listing;
 }
 
@@ -113,8 +103,7 @@ std::optional<Listing> read_listing(const std::filesystem::path& path, Diagnosti
 std::vector<std::string> responses_of(const Image& image) {
   std::vector<std::string> names = plane_names(image);
   const bool are_recorded = image.metadata.contains("sensor_channels");
-  if (!are_recorded ||
-      std::any_of(names.begin(), names.end(), [&](const std::string& n) { return !image.find(n); })) {
+  if (!are_recorded || std::ranges::any_of(names, [&](const std::string& n) { return !image.find(n); })) {
     names.clear();
     for (const ImageChannel& channel : image.channels)
       if (channel.name != "A") names.push_back(channel.name);
@@ -127,13 +116,13 @@ std::vector<std::string> responses_of(const Image& image) {
 std::vector<const ImageChannel*> planes_of(const Image& image) {
   const std::vector<std::string> names = responses_of(image);
   const auto is_response = [&](const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+    return std::ranges::find(names, name) != names.end();
   };
   std::vector<const ImageChannel*> planes;
   for (const char* name : {"R", "G", "B"})
     if (is_response(name)) planes.push_back(image.find(name));
   for (const ImageChannel& channel : image.channels)
-    if (std::find(planes.begin(), planes.end(), &channel) == planes.end() && is_response(channel.name))
+    if (std::ranges::find(planes, &channel) == planes.end() && is_response(channel.name))
       planes.push_back(&channel);
   return planes;
 }
@@ -159,7 +148,6 @@ double full_dn(const Image& image, const Listing& listing, const RawScale& codes
 
 // Scale of a photograph. `codes` is set if the image holds the codes of a raw file.
 Scale scale_of(const Image& image, const Listing& listing, const std::optional<RawScale>& codes) {
-  constexpr double kSixteenBits = 65535;
   Scale scale{0, listing.full_scale.value_or(1)};
   if (codes) {
     scale = {codes->offset_dn / kSixteenBits, full_dn(image, listing, *codes) / kSixteenBits};
@@ -170,8 +158,8 @@ Scale scale_of(const Image& image, const Listing& listing, const std::optional<R
 }
 
 // Regular grid of regions, each one pixel, or one pattern of a mosaic.
-std::vector<Region> grid(int width, int height, const Mosaic& cell) {
-  std::vector<Region> pixels;
+std::vector<Crop> grid(int width, int height, const Mosaic& cell) {
+  std::vector<Crop> pixels;
   for (int row = 0; row < std::min(kGridRows, height); ++row)
     for (int column = 0; column < std::min(kGridColumns, width); ++column) {
       const int x = (2 * column + 1) * width / (2 * std::min(kGridColumns, width));
@@ -208,13 +196,13 @@ Code patch_code(const PatchChannel& patch, const Scale& scale) {
   return {value, std::hypot(*patch.deviation / range * error_of_median(patch.pixels), scale.rounding)};
 }
 
-PatchOutline outline_of(const Region& r) {
+PatchOutline outline_of(const Crop& r) {
   return {"region",
           {Imath::V2d(r.x0, r.y0), Imath::V2d(r.x1, r.y0), Imath::V2d(r.x1, r.y1), Imath::V2d(r.x0, r.y1)}};
 }
 
-bool is_finite(const ImageChannel& channel) {
-  return std::all_of(channel.values.begin(), channel.values.end(), [](float v) { return std::isfinite(v); });
+bool is_finite(const ImageChannel* channel) {
+  return std::ranges::all_of(channel->values, [](float v) { return std::isfinite(v); });
 }
 
 // Error of a photograph in comparison with the first; empty if there is none.
@@ -222,14 +210,10 @@ std::string objection(const Image& image, const Image& first, const Listing& lis
   if (image.width != first.width || image.height != first.height)
     return fmt::format("has {} x {} pixels, the first {} x {}", image.width, image.height, first.width,
                        first.height);
-  const auto channels = planes_of(image);
-  const auto expected = planes_of(first);
-  if (!std::equal(channels.begin(), channels.end(), expected.begin(), expected.end(),
-                  [](const ImageChannel* a, const ImageChannel* b) { return a->name == b->name; }))
+  if (!std::ranges::equal(planes_of(image), planes_of(first), {}, &ImageChannel::name, &ImageChannel::name))
     return "has other channels than the first";
-  if (!std::all_of(channels.begin(), channels.end(), [](const ImageChannel* c) { return is_finite(*c); }))
-    return "has values that are not finite";
-  for (const Region& r : listing.regions)
+  if (!std::ranges::all_of(planes_of(image), is_finite)) return "has values that are not finite";
+  for (const Crop& r : listing.regions)
     if (r.x1 > image.width || r.y1 > image.height)
       return fmt::format("region [{}, {}, {}, {}] exceeds its {} x {} pixels", r.x0, r.y0, r.x1, r.y1,
                          image.width, image.height);
@@ -238,7 +222,6 @@ std::string objection(const Image& image, const Image& first, const Listing& lis
 
 // Reason why a raw file cannot clip at the full scale of the listing; empty if it can.
 std::string full_scale_objection(const Image& image, const Listing& listing, const RawScale& codes) {
-  constexpr double kSixteenBits = 65535;
   if (!listing.full_scale) return "";
   const double code = code_of(static_cast<float>(*listing.full_scale));
   // other programs record where codes clip, but not where they end
@@ -254,7 +237,7 @@ std::string full_scale_objection(const Image& image, const Listing& listing, con
 
 // Measures the regions of one photograph, and appends their codes to the series and the statistics to
 // `measured`.
-void add(const Image& image, const std::optional<RawScale>& recorded, const std::vector<Region>& regions,
+void add(const Image& image, const std::optional<RawScale>& recorded, const std::vector<Crop>& regions,
          const Scale& scale, PhotographedSeries& all, std::vector<std::vector<PatchChannel>>& measured) {
   MeasuredPlanes planes{planes_of(image), all.channels, mosaic_of(image, recorded),
                         scale.full * (1 - kRounding)};
@@ -371,7 +354,7 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
   }
   PhotographedSeries all;
   std::optional<Image> first;
-  std::vector<Region> regions = listing.regions;
+  std::vector<Crop> regions = listing.regions;
   std::vector<std::vector<PatchChannel>> measured;
   double full = 1;
   for (const Photograph& photograph : listing.photographs) {
@@ -384,14 +367,10 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
       fault = codes ? "has codes of its sensor, but the first has other values: was one converted?"
                     : "has no codes of a sensor, but the first has: was it converted?";
     if (fault.empty() && codes) fault = full_scale_objection(image, listing, *codes);
+    if (fault.empty() && !photograph.exposure_s && !(recorded && recorded->exposure_s))
+      fault = "records no exposure time: \"exposure_s\" is needed here";
     if (!fault.empty()) {
       diagnostics.error(photograph.where, photograph.file + " " + fault, ErrorCode::input);
-      return std::nullopt;
-    }
-    if (!photograph.exposure_s && !(recorded && recorded->exposure_s)) {
-      diagnostics.error(photograph.where,
-                        photograph.file + " records no exposure time: \"exposure_s\" is needed here",
-                        ErrorCode::input);
       return std::nullopt;
     }
     if (!first) {

@@ -1,8 +1,6 @@
 #include "calibration/chart/raw_scale.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -21,15 +19,13 @@
 namespace abbe {
 namespace {
 
-constexpr double kSixteenBits = 65535;
+constexpr const char* kWhiteLevel = "white_level_dn";
 using Attributes = std::map<std::string, std::string>;
 
 // Lines "key: value" of a TIFF's description, as attributes.
 Attributes description_lines(const Image& image) {
   Attributes attributes;
-  const auto found = image.metadata.find("ImageDescription");
-  if (found == image.metadata.end()) return attributes;
-  for (const std::string& line : split(found->second, '\n'))
+  for (const std::string& line : split(attribute_of(image.metadata, "ImageDescription").value_or(""), '\n'))
     if (const std::size_t colon = line.find(": "); colon != std::string::npos)
       attributes.emplace(line.substr(0, colon), line.substr(colon + 2));
   return attributes;
@@ -39,16 +35,6 @@ Attributes all_attributes(const Image& image) {
   Attributes attributes = image.metadata;
   attributes.merge(description_lines(image));
   return attributes;
-}
-
-std::optional<std::string> attribute(const Attributes& attributes, const std::string& key) {
-  const auto found = attributes.find(key);
-  return found == attributes.end() ? std::nullopt : std::optional(found->second);
-}
-
-std::optional<double> number(const Attributes& attributes, const std::string& key) {
-  const auto text = attribute(attributes, key);
-  return text ? parse_number(*text) : std::nullopt;
 }
 
 // Attributes `exposure_s.CHANNEL`, by channel.
@@ -63,7 +49,7 @@ std::map<std::string, double> own_exposures(const Attributes& attributes) {
 
 // True if the image holds codes. Pictures for displays record the sensor too, but only codes have levels.
 bool holds_codes(const Attributes& attributes) {
-  return attributes.contains("white_level_dn");
+  return attributes.contains(kWhiteLevel);
 }
 
 // Read-out from the JSON description of a sensor.
@@ -109,11 +95,6 @@ RawScale scale_of(const RawPicture& raw) {
   return scale;
 }
 
-std::optional<double> recorded_white_dn(const Image& image) {
-  const auto found = image.metadata.find("white_level_dn");
-  return found == image.metadata.end() ? std::nullopt : parse_number(found->second);
-}
-
 // Highest code of all planes; empty if a value is not a code.
 std::optional<double> highest_code(const Image& image) {
   constexpr double kRounding = 0.01;  // of floats; codes of 8 and of 16 bits are fractions of 65535
@@ -132,7 +113,7 @@ std::optional<double> highest_code(const Image& image) {
 bool holds_codes_up_to(const RawImage& read, double highest) {
   if (!read.scale) return false;
   if (!raw_scale(read.image)) return true;  // known from tags
-  return recorded_white_dn(read.image) && highest <= read.scale->highest() &&
+  return number_of(read.image.metadata, kWhiteLevel) && highest <= read.scale->highest() &&
          !(read.scale->mosaic && read.image.channels.size() != 1);
 }
 
@@ -173,7 +154,7 @@ void drop_alpha(Image& image) {
 }
 
 void name_planes(Image& image) {
-  const auto attributes = attribute(all_attributes(image), "sensor_channels");
+  const auto attributes = attribute_of(all_attributes(image), "sensor_channels");
   const std::vector<std::string> names = attributes ? split(*attributes, ',') : std::vector<std::string>{};
   if (names.size() != image.channels.size()) drop_alpha(image);
   for (std::size_t k = 0; k < image.channels.size() && names.size() == image.channels.size(); ++k)
@@ -182,20 +163,22 @@ void name_planes(Image& image) {
 
 std::optional<RawScale> raw_scale(const Image& image) {
   const Attributes attributes = all_attributes(image);
-  const auto sensor = nlohmann::json::parse(attribute(attributes, "sensor").value_or(""), nullptr, false);
+  const auto sensor = nlohmann::json::parse(attribute_of(attributes, "sensor").value_or(""), nullptr, false);
   if (!sensor.is_object() || !sensor.contains("readout") || !sensor["readout"].is_object())
     return std::nullopt;
   const auto& readout = sensor["readout"];
   RawScale scale;
+  const auto in_readout = [&](const char* key) {
+    const bool is_number = readout.contains(key) && readout[key].is_number();
+    return is_number ? std::optional(readout[key].get<double>()) : std::nullopt;
+  };
   if (readout.contains("bits") && readout["bits"].is_number_integer()) scale.bits = readout["bits"];
-  if (readout.contains("offset_dn") && readout["offset_dn"].is_number())
-    scale.offset_dn = readout["offset_dn"];
-  if (readout.contains("saturation_dn") && readout["saturation_dn"].is_number())
-    scale.saturation_dn = readout["saturation_dn"];
-  scale.exposure_s = number(attributes, "exposure_s");
+  scale.offset_dn = in_readout("offset_dn").value_or(scale.offset_dn);
+  scale.saturation_dn = in_readout("saturation_dn");
+  scale.exposure_s = number_of(attributes, "exposure_s");
   scale.own_exposure_s = own_exposures(attributes);
-  scale.gain_e_per_dn = number(attributes, "gain_e_per_dn");
-  scale.electrons_per_lx_s = number(attributes, "electrons_per_lx_s");
+  scale.gain_e_per_dn = number_of(attributes, "gain_e_per_dn");
+  scale.electrons_per_lx_s = number_of(attributes, "electrons_per_lx_s");
   if (readout.contains("response_curve") && holds_codes(attributes)) {
     scale.curved = readout_of(attributes.at("sensor"), scale.electrons_per_lx_s);
     scale.linear_codes = linear_codes(*scale.curved);
@@ -240,11 +223,9 @@ double code_of(float value) {
 
 std::vector<ChannelCodes> raw_codes(const Image& image, const RawScale& scale) {
   const bool is_mosaic = scale.mosaic && image.channels.size() == 1;
-  std::vector<ChannelCodes> all;
-  for (const ImageChannel& channel : image.channels)
-    if (!is_mosaic) all.push_back({channel.name, {}});
-  for (const std::string& name : scale.channels)
-    if (is_mosaic) all.push_back({name, {}});
+  std::vector<ChannelCodes> all(is_mosaic ? scale.channels.size() : image.channels.size());
+  for (std::size_t c = 0; c < all.size(); ++c)
+    all[c].channel = is_mosaic ? scale.channels[c] : image.channels[c].name;
   for (const Crop& area : recorded_areas(image))
     for (int y = area.y0; y < area.y1; ++y) {
       for (ChannelCodes& channel : all) channel.rows.push_back({y, 0});
@@ -253,7 +234,7 @@ std::vector<ChannelCodes> raw_codes(const Image& image, const RawScale& scale) {
             static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
         for (std::size_t c = 0; c < image.channels.size(); ++c) {
           ChannelCodes& channel = all[is_mosaic ? static_cast<std::size_t>(scale.mosaic->at(x, y)) : c];
-          channel.dn.push_back(code_of(image.channels[c].values[pixel]));
+          channel.dn.push_back(static_cast<std::uint16_t>(code_of(image.channels[c].values[pixel])));
           ++channel.rows.back().count;
         }
       }
@@ -267,7 +248,7 @@ bool holds_sensor_codes(const RawImage& read) {
 }
 
 double white_dn(const Image& image, const RawScale& scale) {
-  return scale.linear(recorded_white_dn(image).value_or(scale.highest()));
+  return scale.linear(number_of(image.metadata, kWhiteLevel).value_or(scale.highest()));
 }
 
 std::optional<ClippingLevel> clipping_level(const RawImage& read) {

@@ -18,6 +18,9 @@
 
 namespace abbe {
 
+/// Code that images of 16 bits hold as 1.
+inline constexpr double kSixteenBits = 65535;
+
 /// Scale of the codes in a raw file, as the file records it. Members that it does not record are empty or
 /// have their defaults.
 struct RawScale {
@@ -79,7 +82,7 @@ void drop_alpha(Image& image);
 /// or if no channels are recorded, the names remain.
 void name_planes(Image& image);
 
-/// An image as `read_raw_image` returns it. Codes of 16 bits are divided by 65535.
+/// An image as `read_raw_image` returns it. Codes are divided by `kSixteenBits`.
 struct RawImage {
   Image image;
   std::optional<RawScale> scale;           ///< Scale of the sensor's codes; empty if the file records none.
@@ -110,13 +113,12 @@ struct ChannelCodes {
     int y;              ///< Row of the image, from the top.
     std::size_t count;  ///< Number of consecutive codes from this row in `dn`.
   };
-  std::string channel;
-  std::vector<double> dn;           ///< Codes [DN], row by row.
-  std::vector<RowCodes> rows = {};  ///< Rows of all codes, in the order of `dn`.
+  std::string channel{};
+  std::vector<std::uint16_t> dn{};  ///< Codes [DN], row by row.
+  std::vector<RowCodes> rows{};     ///< Rows of all codes, in the order of `dn`.
 };
-/// Codes of each channel of a raw file, with the channels of a mosaic separated: whole numbers as `double`s,
-/// of the pixels that were rendered (`recorded_pixels`). `image` is as `read_raw_image` returns it, where
-/// 65535 is 1.
+/// Codes of each channel of a raw file, with the channels of a mosaic separated, of the pixels that were
+/// rendered (`recorded_pixels`). `image` is as `read_raw_image` returns it, where 65535 is 1.
 [[nodiscard]] std::vector<ChannelCodes> raw_codes(const Image& image, const RawScale& scale);
 
 /// True if the values of an image are the codes of the sensor that its `scale` describes. Films and developed

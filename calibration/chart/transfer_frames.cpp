@@ -23,17 +23,13 @@ constexpr double kStandardErrors = 5;
 constexpr std::size_t kMinRows = 8;   // enough to estimate the scatter of row means
 constexpr double kUnderflow = 0.005;  // fraction of a channel's pixels
 
-// Codes of a frame, one list for each channel.
 struct Frame {
-  double exposure_s;
-  RawScale scale;
+  RawScale scale;  // with an exposure time
   double white_dn;
   int width;
   int height;
   std::vector<Crop> areas;  // rendered pixels
-  std::vector<std::string> channels;
-  std::vector<std::vector<std::uint16_t>> codes;
-  std::vector<std::vector<ChannelCodes::RowCodes>> rows;
+  std::vector<ChannelCodes> channels;
 };
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
@@ -46,30 +42,21 @@ Frame read_frame(const std::filesystem::path& file, Inputs& inputs, std::vector<
   if (warnings != nullptr) warnings->insert(warnings->end(), about.begin(), about.end());
   if (!scale || !scale->exposure_s)
     refuse(file, "records neither bits nor exposure time: a raw file of `abbe develop` is needed");
-  Frame frame{*scale->exposure_s,
-              *scale,
-              white_dn(image, *scale),
-              image.width,
-              image.height,
-              recorded_areas(image),
-              {},
-              {},
-              {}};
-  for (const ChannelCodes& channel : raw_codes(image, *scale)) {
-    frame.channels.push_back(channel.channel);
-    frame.codes.emplace_back(channel.dn.begin(), channel.dn.end());
-    frame.rows.push_back(channel.rows);
+  Frame frame{*scale,       white_dn(image, *scale), image.width,
+              image.height, recorded_areas(image),   raw_codes(image, *scale)};
+  for (const ChannelCodes& channel : frame.channels)
     if (channel.dn.size() < 2)
       refuse(file, fmt::format("has too few pixels in {} to measure noise (got {}, allowed 2 or more)",
                                channel.channel, channel.dn.size()));
-  }
   inputs.release_memory(image.memory_bytes());
   return frame;
 }
 
 // Throws Error{input} unless a frame has the sensor and the settings of the first frame.
 void require_alike(const Frame& frame, const Frame& first, const std::filesystem::path& file) {
-  if (frame.channels != first.channels || frame.width != first.width || frame.height != first.height)
+  if (!std::ranges::equal(frame.channels, first.channels, {}, &ChannelCodes::channel,
+                          &ChannelCodes::channel) ||
+      frame.width != first.width || frame.height != first.height)
     refuse(file, "has other pixels or channels than the first frame");
   if (frame.areas != first.areas)
     refuse(file,
@@ -91,20 +78,18 @@ void require_alike(const Frame& frame, const Frame& first, const std::filesystem
 // If all codes are the lowest, as of an ideal read-out in the dark, there is no scatter to cut.
 void require_no_underflow(const Frame& frame, const std::filesystem::path& file) {
   const double lowest = frame.scale.linear(0);
-  for (std::size_t c = 0; c < frame.codes.size(); ++c) {
-    const std::vector<std::uint16_t>& codes = frame.codes[c];
-    const auto clipped = std::count_if(codes.begin(), codes.end(), [&](auto code) { return code <= lowest; });
-    const double fraction = static_cast<double>(clipped) / static_cast<double>(codes.size());
+  for (const ChannelCodes& codes : frame.channels) {
+    const auto clipped = std::ranges::count_if(codes.dn, [&](auto code) { return code <= lowest; });
+    const double fraction = static_cast<double>(clipped) / static_cast<double>(codes.dn.size());
     if (fraction > kUnderflow && fraction < 1)
       refuse(file,
              fmt::format(
                  "{:.3g} % of its codes in {} are {}, the lowest, at which noise is cut off (allowed {} %), "
                  "so gain, read noise and dark current cannot be measured: give the read-out an offset_dn",
-                 100 * fraction, frame.channels[c], lowest, 100 * kUnderflow));
+                 100 * fraction, codes.channel, lowest, 100 * kUnderflow));
   }
 }
 
-// Mean of a channel in a frame.
 struct Moments {
   double mean;
   double mean_variance;  // variance of the mean
@@ -113,14 +98,13 @@ struct Moments {
 
 // Mean of a channel and its variance: that of independent pixels, or the larger one of independent rows,
 // since the pixels of a row may have noise in common.
-Moments moments(const Frame& frame, std::size_t channel) {
-  const std::vector<std::uint16_t>& codes = frame.codes[channel];
-  const auto n = static_cast<double>(codes.size());
-  const double mean = std::accumulate(codes.begin(), codes.end(), 0.0) / n;
+Moments moments(const ChannelCodes& codes) {
+  const auto n = static_cast<double>(codes.dn.size());
+  const double mean = std::accumulate(codes.dn.begin(), codes.dn.end(), 0.0) / n;
   std::map<int, double> row_sums;
   double squares = 0;
-  auto code = codes.begin();
-  for (const auto& [y, count] : frame.rows[channel]) {
+  auto code = codes.dn.begin();
+  for (const auto& [y, count] : codes.rows) {
     double& row_sum = row_sums[y];
     for (std::size_t i = 0; i < count; ++i, ++code) {
       const double above = *code - mean;
@@ -138,16 +122,16 @@ Moments moments(const Frame& frame, std::size_t channel) {
 // Throws Error{input} unless the second of two frames saw the light of the first and is not a copy. In the
 // dark, a few rows do not determine whether the means differ by more than noise.
 void require_pair(const Frame& first, const Frame& second, bool are_dark, const std::filesystem::path& file) {
-  if (second.exposure_s != first.exposure_s)
+  if (second.scale.exposure_s != first.scale.exposure_s)
     refuse(file, fmt::format("is exposed for {} s and the frame before it for {}: two consecutive frames of "
                              "each exposure are needed",
-                             second.exposure_s, first.exposure_s));
-  bool is_copy = first.codes == second.codes;
-  for (std::size_t c = 0; c < first.codes.size(); ++c) {
-    const Moments a = moments(first, c);
-    const Moments b = moments(second, c);
+                             *second.scale.exposure_s, *first.scale.exposure_s));
+  bool is_copy = true;
+  for (std::size_t c = 0; c < first.channels.size(); ++c) {
+    const Moments a = moments(first.channels[c]);
+    const Moments b = moments(second.channels[c]);
     // Frames in which all pixels have one code, dark or full, may be equal.
-    is_copy = is_copy && a.mean_variance > 0;
+    is_copy = is_copy && first.channels[c].dn == second.channels[c].dn && a.mean_variance > 0;
     if (are_dark && a.rows < kMinRows) continue;
     const double difference = std::abs(a.mean - b.mean);
     const double signal = std::max(a.mean, b.mean) - first.scale.offset_dn;
@@ -156,7 +140,7 @@ void require_pair(const Frame& first, const Frame& second, bool are_dark, const 
       refuse(file,
              fmt::format("has a mean of {:.5g} DN in {} and the frame before it {:.5g}: the two of a pair "
                          "see the same light",
-                         b.mean, first.channels[c], a.mean));
+                         b.mean, first.channels[c].channel, a.mean));
   }
   if (is_copy) refuse(file, "has exactly the codes of the frame before it: two exposures are needed");
 }
@@ -178,8 +162,8 @@ std::vector<Frame> read_frames(std::span<const std::filesystem::path> files, boo
 std::vector<FlatPair> pairs_of(const std::vector<Frame>& frames, std::size_t channel) {
   std::vector<FlatPair> pairs;
   for (std::size_t i = 0; i + 1 < frames.size(); i += 2)
-    pairs.push_back({frames[i].scale.exposure_of(frames[i].channels[channel]).value(),
-                     frames[i].codes[channel], frames[i + 1].codes[channel]});
+    pairs.push_back({frames[i].scale.exposure_of(frames[i].channels[channel].channel).value(),
+                     frames[i].channels[channel].dn, frames[i + 1].channels[channel].dn});
   return pairs;
 }
 
@@ -211,7 +195,7 @@ std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::p
     // e^2 = 100 (e + s^2)
     const double snr10 = 50 + std::sqrt(2500 + 100 * transfer.read_noise_e * transfer.read_noise_e);
     const auto sensitivity = first.scale.electrons_per_lx_s;
-    all.push_back({first.channels[c], transfer, range_db, snr10,
+    all.push_back({first.channels[c].channel, transfer, range_db, snr10,
                    sensitivity ? std::optional(snr10 / *sensitivity) : std::nullopt});
   }
   return all;

@@ -25,6 +25,18 @@ std::vector<double> edges_of_bands(const Image& film) {
 
 }  // namespace
 
+std::optional<std::string> attribute_of(const std::map<std::string, std::string>& attributes,
+                                        const std::string& key) {
+  const auto found = attributes.find(key);
+  return found == attributes.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<double> number_of(const std::map<std::string, std::string>& attributes,
+                                const std::string& key) {
+  const auto text = attribute_of(attributes, key);
+  return text ? parse_number(*text) : std::nullopt;
+}
+
 void record_white(const std::string& name, const Chromaticity& xy, bool requested,
                   std::map<std::string, std::string>& metadata) {
   std::string& recorded = metadata[kWhiteKey] = name;

@@ -11,6 +11,13 @@
 
 namespace abbe {
 
+/// Value of an attribute of a film or picture; nothing if there is none.
+[[nodiscard]] std::optional<std::string> attribute_of(const std::map<std::string, std::string>& attributes,
+                                                      const std::string& key);
+/// Value of an attribute that is a number; nothing if there is none or if it is not a number.
+[[nodiscard]] std::optional<double> number_of(const std::map<std::string, std::string>& attributes,
+                                              const std::string& key);
+
 /// JSON pointer of the requested white, in a scene and in the options of development.
 inline constexpr const char* kWhitePointer = "/output/white";
 /// Attributes with the name of a film's white and with its x and y, separated by a blank.

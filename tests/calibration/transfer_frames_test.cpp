@@ -19,12 +19,12 @@ TEST(RawCodes, AreOfThePixelsThatWereRendered) {
   scale.mosaic = Mosaic{2, 2, {0, 1, 1, 2}};
   const std::vector<ChannelCodes> found = raw_codes(image, scale);
   ASSERT_EQ(found.size(), 3U);
-  EXPECT_EQ(found[0].dn, std::vector<double>{});
-  EXPECT_EQ(found[1].dn, std::vector<double>{1});
-  EXPECT_EQ(found[2].dn, (std::vector<double>{5, 7}));
+  EXPECT_TRUE(found[0].dn.empty());
+  EXPECT_EQ(found[1].dn, std::vector<std::uint16_t>{1});
+  EXPECT_EQ(found[2].dn, (std::vector<std::uint16_t>{5, 7}));
   scale.mosaic.reset();
   const ChannelCodes all = raw_codes(image, scale)[0];
-  EXPECT_EQ(all.dn, (std::vector<double>{1, 5, 7}));
+  EXPECT_EQ(all.dn, (std::vector<std::uint16_t>{1, 5, 7}));
   ASSERT_EQ(all.rows.size(), 3U);
   EXPECT_EQ(all.rows[0].y, 0);
   EXPECT_EQ(all.rows[2].y, 1);
