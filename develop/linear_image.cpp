@@ -1,7 +1,6 @@
 #include "develop/linear_image.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

@@ -3,9 +3,6 @@
 #include <link.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <cstring>
 #include <string_view>
 
@@ -13,7 +10,6 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "calibration/output/display.h"
 #include "develop/radiance.h"
 #include "io/data_directory.h"
 #include "io/error.h"

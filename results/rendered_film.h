@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <string>
 
 #include "calibration/output/display.h"
 #include "io/image.h"

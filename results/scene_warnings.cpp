@@ -9,7 +9,6 @@
 #include "scene/lost_light.h"
 #include "sensor/response/polarised_channels.h"
 #include "transport/path/roulette.h"
-#include "transport/plan/plan.h"
 #include "transport/plan/techniques.h"
 
 namespace abbe {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,10 +15,8 @@
 #include "io/text.h"
 #include "results/rendered_film.h"
 #include "scene/camera/camera.h"
-#include "scene/white.h"
 #include "sensor/film/recorded_attributes.h"
 #include "sensor/response/polarised_channels.h"
-#include "spectral/colorimetry.h"
 #include "spectral/rgb.h"
 #include "transport/render/layers.h"
 #include "transport/render/white.h"

@@ -1,7 +1,6 @@
 #include "calibration/fit/correction.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numeric>
 #include <random>

@@ -4,12 +4,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <memory>
 #include <numeric>
 #include <span>
-#include <string>
-#include <utility>
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 #include "calibration/metrics/color_rendering.h"
 
-#include <cmath>
 #include <limits>
 #include <numbers>
 

@@ -1,8 +1,6 @@
 #include "calibration/output/camera_profile.h"
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -12,7 +10,6 @@
 #include "io/image.h"
 #include "io/table.h"
 #include "spectral/color_temperature.h"
-#include "spectral/colorimetry.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
 #include "spectral/rgb.h"

@@ -1,10 +1,8 @@
 #include "calibration/output/display.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
@@ -12,21 +10,17 @@
 #include <sstream>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
 
 #include "calibration/fit/correction.h"
-#include "calibration/output/color_spaces.h"
 #include "calibration/output/ocio.h"
 #include "io/error.h"
 #include "io/exr.h"
-#include "io/image.h"
 #include "io/picture_codec.h"
 #include "io/text.h"
 #include "sensor/film/crop.h"
-#include "spectral/colorimetry.h"
 #include "spectral/library.h"
 #include "spectral/rgb.h"
 

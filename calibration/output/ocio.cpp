@@ -5,9 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <sstream>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
@@ -17,7 +15,6 @@
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/text.h"
-#include "spectral/rgb.h"
 
 namespace abbe {
 namespace {
