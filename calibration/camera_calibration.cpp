@@ -85,7 +85,7 @@ std::optional<std::size_t> find(const MeasuredPatches& measured, const std::stri
   return static_cast<std::size_t>(found - measured.names.begin());
 }
 
-// With a misspelt name, a patch would count for nothing.
+// A patch with a misspelt name would count for nothing.
 void require_known(const ChartTargets& chart, const MeasuredPatches& measured) {
   std::vector<std::string> known = chart.names;
   known.emplace_back(kDiffuser);

@@ -77,7 +77,7 @@ struct CameraCalibration {
   Interval unseen_mean;  ///< 95 % interval of the mean of `unseen`, for patches drawn at random.
   /// 95 % intervals of `correction.correction.columns`: those of X, Y and Z for each term, by bootstrap.
   std::vector<std::array<Interval, 3>> columns;
-  CameraProfile profile;  ///< Conversion that the calibration found, for the outputs.
+  CameraProfile profile;
 };
 
 /// Simulates the whole calibration on integrated colours of the chart and a white tile.
@@ -88,19 +88,13 @@ struct CameraCalibration {
 ///   curves linearise the brightest photograph that is not clipped.
 /// - The values are balanced on the tile, and the white-preserving correction is fitted to them.
 ///
-/// Errors per patch therefore include those of curve, code values and correction. Throws Error{usage} for
-/// - bits out of range, and an unknown planted response;
-/// - a camera without three channels;
-/// - a chart too small for a root polynomial, and folds outside 2 to its number of patches.
-///
-/// Throws Error{input} if
-/// - a fit fails, or the patches do not determine a matrix;
-/// - a channel receives nothing from the light;
-/// - chromatic adaptation from the light's white to D65 is impossible.
+/// Errors per patch therefore include those of curve, code values and correction. Throws as
+/// `calibrate_measured` and `integrate`, and Error{usage} for bits out of range and an unknown planted
+/// response.
 [[nodiscard]] CameraCalibration calibrate_camera(const CalibrationSetup& setup,
                                                  const CharacterisationOptions& options = {});
 
-/// Linear, white-balanced values with the colours of their chart, in its order without excluded patches.
+/// White-balanced values with the colours of their chart, in its order without excluded patches.
 struct BalancedPatches {
   PatchColors colors;
   std::array<double, 3> gains{1, 1, 1};  ///< Factors from linear to balanced values, one per channel.
@@ -110,8 +104,8 @@ struct BalancedPatches {
 
 /// Inputs of a real camera's calibration.
 struct MeasuredCamera {
-  std::string name;                        ///< Name of the camera, for the profile.
-  std::string light;                       ///< Name of the light, for the profile and for messages.
+  std::string name;
+  std::string light;                       ///< Name of the light.
   BalancedPatches chart;                   ///< Deviations weight the patches in the fit.
   std::vector<ChannelResponse> responses;  ///< Curves that linearised the values: three, or none.
   /// Patches in the same light to which the correction is fitted instead of the chart, if there are any.
@@ -135,15 +129,13 @@ struct MeasuredCamera {
 /// if less than half of the patches remain, and if there is nothing to balance on.
 [[nodiscard]] BalancedPatches balance(const ChartTargets& chart, const MeasuredPatches& measured);
 
-/// Inputs of a calibration: a camera whose spectral responses are known, or photographs of a real camera.
-/// Texts and paths that do not apply are empty.
+/// Inputs of a calibration of a simulated or a real camera. Texts and paths that do not apply are empty.
 struct CalibrationSource {
   /// Camera as `camera_channels` takes it; for a real camera only with `training`.
   std::string camera;
-  /// Table of the values that a real camera recorded of the chart's patches, as `load_measured_patches` reads
-  /// it.
+  /// Table of the values that a real camera recorded of the patches, for `load_measured_patches`.
   std::filesystem::path measured;
-  /// Listing of a real camera's photographs with their exposure times, as `read_series` reads it.
+  /// Listing of a real camera's photographs with their exposure times, for `read_series`.
   std::filesystem::path series;
   /// Chart to photograph: a table of `data/reflectance` or a file.
   std::string chart = "colorchecker24_babelcolor_average";
@@ -151,8 +143,8 @@ struct CalibrationSource {
   /// Tables of reflectances, separated by commas, to which the correction is fitted instead. A real camera
   /// then also needs `camera`, whose responses give the raw values.
   std::string training;
-  /// Response of a simulated camera: "linear", "gamma:G" or "s-curve". If empty, the camera is linear, and
-  /// its response is not recovered.
+  /// Description of a simulated camera's PlantedResponse. If empty, the camera is linear, and its response is
+  /// not recovered.
   std::string planted_response;
   int bits = 12;  ///< Bits of a simulated camera's codes, 1 to 16; 0 for no rounding.
   CharacterisationOptions how;
@@ -182,10 +174,8 @@ struct CalibrationCase {
                                                                   Diagnostics& diagnostics);
 
 /// Calibrates the simulated camera of `source` under `illuminant`, a name of `data/illuminant` or a formula.
-/// Adds warnings to `diagnostics`.
-/// Throws as `calibrate_camera` and `camera_channels`, and InvalidInput for unknown names and invalid tables.
-/// Throws Error{usage} if the chart is among the training tables, and Error{input} if a channel receives
-/// nothing from the light.
+/// Adds warnings to `diagnostics`. Throws as `calibrate_camera` and `camera_channels`, InvalidInput for
+/// unknown names and invalid tables, and Error{usage} if the chart is among the training tables.
 [[nodiscard]] CalibrationCase simulated_calibration(const CalibrationSource& source,
                                                     const std::string& illuminant, Diagnostics& diagnostics);
 /// Calibrates the real camera that photographed the chart under `illuminant`. If `source.series` is set, the
@@ -201,8 +191,7 @@ struct CalibrationCase {
 
 /// Response curves of a real camera's channels, recovered from a series of photographs.
 struct RecoveredResponses {
-  /// One response per channel, in the order of the photographs.
-  std::vector<ChannelResponse> channels;
+  std::vector<ChannelResponse> channels;  ///< In the order of the photographs.
   FullScale full_scale = {};  ///< Full scale of the codes to which the curves apply.
 };
 /// Recovers the response curves from a listing of photographs (`read_series`), whose files are added to

@@ -1,4 +1,5 @@
 // The chart detector module, by OpenCV's detector of ColorCheckers.
+#include <algorithm>
 #include <cmath>
 
 #include <opencv2/calib3d.hpp>
@@ -86,12 +87,11 @@ cv::Mat refined(const cv::Mat& image, const cv::Mat& to_picture) {
   return fitted.empty() ? to_picture : fitted;
 }
 
+// The picture as OpenCV has it: blue, green, red.
 cv::Mat mat_of(const ByteImage& picture) {
   cv::Mat image(picture.height, picture.width, CV_8UC3);
-  auto pixel = picture.pixels.begin();
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x, ++pixel)
-      image.at<cv::Vec3b>(y, x) = {(*pixel)[2], (*pixel)[1], (*pixel)[0]};
+  std::ranges::transform(picture.pixels, image.begin<cv::Vec3b>(),
+                         [](const auto& rgb) { return cv::Vec3b(rgb[2], rgb[1], rgb[0]); });
   return image;
 }
 

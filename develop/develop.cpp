@@ -37,7 +37,6 @@ void record_frame(const ExposedFilm& exposed, std::map<std::string, std::string>
                               light * sensor.gathering_area_m2 / saturation_electrons(*sensor.readout));
 }
 
-// Metadata of the film, with the sensor as it is read out.
 std::map<std::string, std::string> metadata_of(const ExposedFilm& exposed) {
   const FilmSensor& sensor = exposed.sensor;
   std::map<std::string, std::string> metadata = exposed.film.metadata;
@@ -71,7 +70,6 @@ std::vector<double> pixel_exposures(const FilmSensor& sensor, const Image& film)
   return seconds;
 }
 
-// Reads out one plane and appends its electrons, codes, saturated pixels and calibrated values.
 void read_plane(const ExposedFilm& exposed, std::size_t plane, std::uint64_t seed, std::uint32_t frame,
                 DevelopedFilm& developed) {
   const FilmSensor& sensor = exposed.sensor;
@@ -101,7 +99,6 @@ void record_unit(const char* unit, std::map<std::string, std::string>& metadata)
     if (key.starts_with("channel.")) text = unit;
 }
 
-// Records the meaning of the numbers in a raw file.
 void record_codes(const FilmSensor& sensor, std::map<std::string, std::string>& metadata) {
   const Readout& readout = *sensor.readout;
   metadata["codes"] =
@@ -125,7 +122,6 @@ std::optional<std::vector<double>> picture_saturation(const FilmSensor& sensor) 
   return saturation;
 }
 
-// True if a pixel has at least these values in all channels.
 bool has_pixel_at(const Image& planes, const std::vector<std::string>& channels,
                   const std::array<double, 3>& values) {
   std::array<const ImageChannel*, 3> found{};
@@ -138,7 +134,6 @@ bool has_pixel_at(const Image& planes, const std::vector<std::string>& channels,
   });
 }
 
-// Mean of a plane's values over pixels.
 template <typename Value>
 double mean(const std::vector<std::size_t>& pixels, const std::vector<Value>& values) {
   double sum = 0;

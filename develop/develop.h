@@ -33,8 +33,7 @@ struct DevelopedFilm {
 /// signal. If channels have different exposure times, their dark signals differ, and the result is the offset
 /// alone. The sensor must have a readout.
 [[nodiscard]] double black_level(const FilmSensor& sensor);
-/// A warning if channels have different dark signals, which `black_level` then does not include; empty
-/// otherwise. The sensor must have a readout.
+/// A warning if channels have different dark signals, which `black_level` does not include; else empty.
 [[nodiscard]] std::optional<std::string> unequal_dark_signals_warning(const FilmSensor& sensor);
 
 /// The seed of the render that made the film; 0 if the film does not record it.

@@ -11,11 +11,9 @@ namespace abbe {
 /// negative variance. Variances may be infinite: the square of an error may exceed single precision.
 void require_finite(const Image& film, const std::filesystem::path& path);
 
-/// Reads an .exr film as rendered, or the exposure and variance of one developed into parts. Any readable
-/// single-part EXR that passes `require_finite` is accepted, whether or not it is a film.
-/// Throws Error{input} if the file cannot be read, fails `require_finite`, or has several parts but none with
-/// the name "exposure". Throws Error{resource} if it exceeds the limits of `read_exr` or the memory left in
-/// `inputs`; nullptr is no limit.
+/// Reads an .exr film as rendered, or the exposure and variance of one developed into parts. A single-part
+/// EXR need not be a film. Throws as `read_exr_parts` and `require_finite`, and Error{input} for several
+/// parts without the name "exposure". `inputs` limits the memory; nullptr is no limit.
 [[nodiscard]] Image read_film(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 /// Writes an .exr with the exposure and its variance as parts; with a readout also electrons and codes. If

@@ -19,7 +19,6 @@ namespace {
 
 constexpr const char* kGainPointer = "/readout/gain_e_per_dn";
 
-// Reads the attributes of a film; errors name its path.
 struct Metadata {
   const Image& film;
   const std::filesystem::path& path;
@@ -75,7 +74,6 @@ void replace_conversion(JsonValue& sensor, const std::string& pointer) {
       std::erase_if(*members, [old](const JsonValue::Member& member) { return member.first == old; });
 }
 
-// The string under a key of an object; empty if there is none.
 std::string text_in(const JsonValue& object, const char* key) {
   const JsonValue* member = object.find(key);
   const auto* text = member != nullptr ? std::get_if<std::string>(&member->value) : nullptr;
@@ -171,7 +169,6 @@ std::optional<JsonValue> spec_of(const FilmSensor& sensor) {
   return parse_json(std::make_shared<const SourceText>(SourceText{"", sensor.description}), none);
 }
 
-// The number under a key of an object; nullptr if there is none.
 double* number_in(JsonValue* spec, const char* key) {
   JsonValue* member = spec != nullptr ? spec->find(key) : nullptr;
   return member != nullptr ? std::get_if<double>(&member->value) : nullptr;
@@ -207,7 +204,6 @@ void record_exposure(ExposedFilm& exposed, double factor) {
       seconds->second = fmt::format("{}", static_cast<float>(*before * factor));
 }
 
-// Multiplies all exposure times, also in description and metadata.
 void set_exposure(ExposedFilm& exposed, double factor) {
   exposed.sensor.shared_exposure_s *= factor;
   for (double& seconds : exposed.sensor.exposure_s) seconds *= factor;
@@ -227,7 +223,6 @@ bool has_shaped_shutter(const FilmSensor& sensor) {
          });
 }
 
-// The exposure time [s] that the film records.
 double stated_exposure(const FilmSensor& sensor) {
   return common_exposure(sensor).value_or(sensor.shared_exposure_s);
 }

@@ -26,7 +26,7 @@ inline constexpr const char* kFlatFrame = "flat";
 /// JSON pointer to the ISO speed in a film's sensor description.
 inline constexpr const char* kIsoPointer = "/readout/iso";
 
-/// Properties of the sensor that a film file records. They suffice to develop the film without its scene.
+/// Properties of the sensor that a film file records, which suffice to develop the film.
 struct FilmSensor {
   std::vector<std::string> planes;  ///< Planes of the film that the sensor records, in order.
   double shared_exposure_s = 1;     ///< Exposure time of the sensor [s]; 0 for a bias frame.
@@ -83,11 +83,10 @@ struct ExposedFilm {
 /// The exposure time of all channels [s]; empty if they differ or there are none.
 [[nodiscard]] std::optional<double> common_exposure(const FilmSensor& sensor);
 
-/// Changes the exposure time of a film to `seconds` [s] without rendering, also in its metadata and
-/// description. Film values scale with the time, variances with its square. `seconds` applies to all
-/// channels, or to the sensor if channels differ; their ratios are then preserved. Motion blur does not
-/// change. Warns about it if the shutter has a shape, since films do not record motion. Throws Error{usage}
-/// for a film without an exposure time, such as radiances, and for a bias frame.
+/// Changes the exposure time of a film to `seconds` [s], also in its metadata and description. Film values
+/// scale with the time, variances with its square. `seconds` applies to all channels, or to the sensor if
+/// channels differ; their ratios are then preserved. Motion blur does not change, with a warning if the
+/// shutter has a shape. Throws Error{usage} for a film without an exposure time, and for a bias frame.
 void expose_for(ExposedFilm& exposed, double seconds, Diagnostics& diagnostics);
 
 /// No light, in no exposure time: the readout alone.
@@ -98,7 +97,6 @@ struct DarkFrame {};
 struct FlatFrame {
   double saturation_fraction = 0.5;  ///< Expected electrons divided by those at saturation.
 };
-/// A frame without a scene.
 using CalibrationFrame = std::variant<BiasFrame, DarkFrame, FlatFrame>;
 /// Replaces the planes of the film by a frame, with variance 0. A bias frame also sets all exposure times to
 /// 0. Throws Error{usage} for a sensor without a readout.

@@ -63,8 +63,8 @@ void require_convex(const Corners& corners) {
   int left = 0;
   int right = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const double turn =
-        (corners[(i + 1) % 4] - corners[i]).cross(corners[(i + 2) % 4] - corners[(i + 1) % 4]);
+    const Imath::V2d& corner = corners[(i + 1) % 4];
+    const double turn = (corner - corners[i]).cross(corners[(i + 2) % 4] - corner);
     left += turn > 0 ? 1 : 0;
     right += turn < 0 ? 1 : 0;
   }

@@ -19,9 +19,8 @@ struct LinearImage;
 /// Finds a ColorChecker of 24 patches, in any orientation, by the chart detector module. The detector needs
 /// red, green and blue: channels R, G, B or X, Y, Z if the image has them. Otherwise the first, central and
 /// last channel are tried in order of wavelength and in reverse; a grey image uses its one channel. Returns
-/// the corners that `outlines_between` takes, accurate to a pixel or two. They are ordered as the chart is
-/// read: top left, top right, bottom right, bottom left. Throws Error{input} if there is no chart or the
-/// module is missing.
+/// the corners that `outlines_between` takes, accurate to a pixel or two. Throws Error{input} if there is no
+/// chart or the module is missing.
 [[nodiscard]] std::array<Imath::V2d, 4> find_chart(const LinearImage& image);
 
 /// Outlines of a chart's patches in an image, from the four corners of its grid of patches. Positions are in
@@ -44,11 +43,8 @@ struct ByteImage {
 
 /// A ColorChecker of 24 patches in a picture.
 struct FoundChart {
-  /// Outer corners of the cells of the top left, top right, bottom right and bottom left patch, as the chart
-  /// is read. Positions are in pixels from the top left corner of the picture, with y downwards.
-  std::array<Imath::V2d, 4> corners;
-  /// Dissimilarity of its colours from those of a ColorChecker, on the detector's own scale; smaller is
-  /// better.
+  std::array<Imath::V2d, 4> corners;  ///< Corners as `outlines_between` takes them.
+  /// Dissimilarity of its colours from those of a ColorChecker, on the detector's own scale.
   double misfit = 0;
 };
 

@@ -21,7 +21,6 @@
 namespace abbe {
 namespace {
 
-// Reads the mosaic that a film or raw file of Abbe records.
 void read_mosaic(LinearImage& read) {
   auto recorded = recorded_mosaic(read.image.metadata);
   if (!recorded || read.image.channels.size() != 1) return;
@@ -133,7 +132,6 @@ std::size_t channel_of(const LinearImage& image, std::size_t plane, std::size_t 
       image.mosaic->at(static_cast<int>(pixel % width), static_cast<int>(pixel / width)));
 }
 
-// Mean over the pixels of each channel.
 std::vector<double> channel_means(const LinearImage& image) {
   std::vector<double> sums(image.channels.size(), 0);
   std::vector<double> pixels(image.channels.size(), 0);
@@ -168,7 +166,6 @@ void require_unsaturated(const LinearImage& flat, const std::filesystem::path& p
                     100 * saturated / pixels, 100 * kMaxDefectiveFraction));
 }
 
-// Throws Error{input} for a pixel that is not above 0.
 void require_positive(const LinearImage& flat, const std::filesystem::path& path) {
   const auto width = static_cast<std::size_t>(flat.image.width);
   for (const ImageChannel& channel : flat.image.channels)

@@ -19,7 +19,7 @@ struct LinearImage {
   /// Value of `as_exposed` from which on a pixel is saturated, in single precision like the values; nothing
   /// for films.
   std::optional<double> saturation;
-  std::string unit;  ///< Description of the values' unit.
+  std::string unit;
   /// The planes as exposed, if opcodes of a DNG or a flat field have changed them; else empty.
   std::vector<ImageChannel> exposed = {};
   std::vector<std::string> warnings = {};  ///< Warnings about the file; each names it.

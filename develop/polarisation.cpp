@@ -49,7 +49,6 @@ struct Measurement {
   const ImageChannel* plane;
 };
 
-// The planes behind polarisers, by the name of their group.
 std::map<std::string, std::vector<Measurement>> groups_of(const Image& planes,
                                                           const std::vector<std::string>& names) {
   std::map<std::string, std::vector<Measurement>> groups;

@@ -28,10 +28,9 @@ std::vector<std::string> names_of(const std::vector<Channel>& channels) {
   return names;
 }
 
-// True if the image records variances of its bands.
 bool has_variance(const SpectralImage& image) {
-  return std::any_of(image.others.begin(), image.others.end(),
-                     [](const ImageChannel& channel) { return channel.name.starts_with(variance_of("")); });
+  return std::ranges::any_of(
+      image.others, [](const ImageChannel& channel) { return channel.name.starts_with(variance_of("")); });
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ void check_coverage(const SpectralImage& image, const Channel& channel, const st
 [[nodiscard]] FilmSensor observer_of(const Image& film, const std::filesystem::path& path,
                                      const ViewOptions& view, std::optional<Chromaticity> white);
 
-/// The result of `observed` with the sensor `observer_of`. Throws as that function.
+/// The result of `observed` with the sensor `observer_of`.
 [[nodiscard]] ExposedFilm observed_film(const SpectralImage& image, const std::filesystem::path& path,
                                         const ViewOptions& view, std::optional<Chromaticity> white);
 
@@ -67,8 +67,7 @@ struct RadianceSensor {
 /// Erases the attributes of the channels of a film's sensor.
 void erase_channel_attributes(std::map<std::string, std::string>& metadata);
 
-/// Erases the attributes of a film's sensor, its colours and their white. Pictures for displays have colours
-/// of their own.
+/// Erases the attributes of a film's sensor, its colours and their white.
 void erase_sensor_attributes(std::map<std::string, std::string>& metadata);
 
 /// Erases the attributes of layers and features.
@@ -79,8 +78,7 @@ void erase_layout_attributes(std::map<std::string, std::string>& metadata);
 
 /// Exposes a sensor to the radiances read from `path`. The film has the metadata of both; attributes of
 /// sensor and camera are those of the new sensor. With a mosaic it has one plane. Warns and throws as
-/// `check_coverage` for each channel. Throws as `expose`, such as Error{usage} for a channel that depends on
-/// the angle of incidence.
+/// `check_coverage` for each channel, and throws as `expose`.
 [[nodiscard]] Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
                                  const std::filesystem::path& path, Diagnostics& diagnostics);
 

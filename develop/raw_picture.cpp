@@ -18,7 +18,6 @@
 namespace abbe {
 namespace {
 
-// Codes pixel by pixel, with the planes of a pixel together.
 std::vector<std::uint16_t> interleaved(const Image& codes, const std::vector<std::string>& planes) {
   std::vector<const ImageChannel*> found;
   for (const std::string& plane : planes) found.push_back(codes.find(plane));
@@ -104,16 +103,6 @@ DngProfile read_profile(const std::shared_ptr<const SourceText>& source, Diagnos
   return profile;
 }
 
-// True if both name the same camera. Curve files are compared by file name, in any folder.
-bool is_same_camera(const std::filesystem::path& a, const std::filesystem::path& b) {
-  return a.filename() == b.filename();
-}
-
-bool is_shipped_camera(const std::string& camera) {
-  const std::vector<std::string> names = table_names("camera");
-  return std::find(names.begin(), names.end(), camera) != names.end();
-}
-
 }  // namespace
 
 RawPicture raw_picture(const DevelopedFilm& developed, const FilmSensor& sensor) {
@@ -163,11 +152,14 @@ void require_same_camera(const DngProfile& profile, const FilmSensor& sensor,
   };
   if (profile.camera.empty()) return;
   if (!sensor.measured_camera.empty()) {
-    if (!is_same_camera(profile.camera, sensor.measured_camera)) refuse(sensor.measured_camera);
-  } else if (is_shipped_camera(profile.camera) &&
-             sensor.description.find(profile.camera) == std::string::npos) {
-    refuse("those of its own channels");
+    const std::filesystem::path measured(sensor.measured_camera);
+    if (std::filesystem::path(profile.camera).filename() != measured.filename()) refuse(measured.string());
+    return;
   }
+  const std::vector<std::string> shipped = table_names("camera");
+  if (std::ranges::find(shipped, profile.camera) != shipped.end() &&
+      sensor.description.find(profile.camera) == std::string::npos)
+    refuse("those of its own channels");
 }
 
 }  // namespace abbe

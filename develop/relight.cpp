@@ -22,7 +22,6 @@
 namespace abbe {
 namespace {
 
-// The lights that have layers in the film.
 std::vector<std::string> lights_of(const Image& film) {
   std::vector<std::string> lights;
   for (const std::string& layer : split(attribute_of(film.metadata, kLayersKey).value_or(""), ','))
@@ -50,7 +49,6 @@ std::vector<std::string> planes_with_layers(const Image& film, const std::vector
   return planes;
 }
 
-// The factor of each plane, for each light.
 std::vector<std::vector<double>> factors_by_light(const std::vector<std::string>& lights, std::size_t planes,
                                                   std::span<const LightFactor> factors) {
   std::vector<std::vector<double>> all(lights.size(), std::vector<double>(planes, 1));
@@ -97,7 +95,6 @@ ImageChannel* find(Image& image, const std::string& name) {
   return found == image.channels.end() ? nullptr : &*found;
 }
 
-// Recomputes one plane; `factors` has one factor for each light.
 void relight_plane(Image& film, const std::string& plane, const std::vector<std::string>& lights,
                    const std::vector<double>& factors) {
   std::vector<const ImageChannel*> layers;
@@ -162,7 +159,6 @@ std::string factors_text(std::span<const LightFactor> factors) {
   return fmt::format("{}", fmt::join(texts, " "));
 }
 
-// Mean of a channel over all pixels.
 double mean_of(const Image& film, const std::string& channel) {
   const std::vector<float>& values = film.find(channel)->values;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

@@ -8,7 +8,7 @@
 
 namespace abbe {
 
-/// Factors that multiply the layer of a light: one for all planes, or one for each.
+/// Factors that multiply the layer of a light.
 struct LightFactor {
   std::string light;            ///< Name of the layer, without the prefix `light.`.
   std::vector<double> factors;  ///< One for all planes, or one for each in the order of `relight`.

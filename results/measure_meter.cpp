@@ -31,7 +31,6 @@ Film::Average scaled(Film::Average value, double factor) {
   return value;
 }
 
-// Reading of a part of the film: a cell, or all cells.
 LightReading light_in(const Film& film, const Crop& part, double factor) {
   const auto read = [&](int plane) {
     return scaled(film.average(plane, part.x0, part.y0, part.x1, part.y1), factor);
@@ -39,16 +38,11 @@ LightReading light_in(const Film& film, const Crop& part, double factor) {
   return {read(kRadiantPlane), read(kLuminousPlane), scaled(read(kPhotonPlane), kAvogadro / 1e6)};
 }
 
-// Reports a sentence about a meter as a warning.
-void warn_of_meter(const MeterCallbacks& caller, const Meter& meter, const std::string& sentence) {
-  caller.warn(fmt::format("meter {}: {}", meter.name, sentence));
-}
-
 // Reports a sentence, if any, as a warning, or throws it if it is an error.
 void report_warning(const MeterCallbacks& caller, const Meter& meter,
-                    const std::optional<std::string>& sentence, bool is_error) {
+                    const std::optional<std::string>& sentence, bool is_error = false) {
   if (sentence && is_error) throw Error(ErrorCode::scene, meter.name, *sentence);
-  if (sentence) warn_of_meter(caller, meter, *sentence);
+  if (sentence) caller.warn(fmt::format("meter {}: {}", meter.name, *sentence));
 }
 
 }  // namespace
@@ -101,18 +95,18 @@ MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions op
   options.guides = choice.guides;
   report_warning(caller, meter, dark_camera_warning(scene), caller.strict);
   report_warning(caller, meter, unsampled_light_warning(scene), caller.strict && !chooses);
-  report_warning(caller, meter, undertrained_warning(choice.guides.get()), false);
-  report_warning(caller, meter, unused_settings_warning(scene), false);
+  report_warning(caller, meter, undertrained_warning(choice.guides.get()));
+  report_warning(caller, meter, unused_settings_warning(scene));
   inputs.reserve_memory("the film", film_bytes(scene, options));
   inputs.reserve_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   RenderResult result = caller.render(scene, options);
   result.stats.error.few_samples = few_samples(result.film, kSpectrumPlane);
   inputs.release_memory(film_bytes(scene, options) + bytes_of_light_paths(scene));
-  for (const std::string& loss : render_warnings(scene, result)) warn_of_meter(caller, meter, loss);
-  report_warning(caller, meter, unknown_error_warning(result.stats.error), false);
+  for (const std::string& loss : render_warnings(scene, result)) report_warning(caller, meter, loss);
+  report_warning(caller, meter, unknown_error_warning(result.stats.error));
   if (options.target_error && !options.time_limit_s && !std::isfinite(result.stats.error.median))
-    warn_of_meter(caller, meter,
-                  fmt::format("a pilot found no light at the meter: {} has no effect", caller.error_name));
+    report_warning(caller, meter,
+                   fmt::format("a pilot found no light at the meter: {} has no effect", caller.error_name));
   return {meter, scene.render.integrator, scene.render.seed, read_meter(meter, result.film, scene.exposure_s),
           result.stats};
 }

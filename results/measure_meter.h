@@ -12,8 +12,7 @@
 
 namespace abbe {
 
-/// Values of a meter in radiometric, photometric and photon units of its quantity (`units_of`). Each has a
-/// standard error and the degrees of freedom of its estimate.
+/// Values of a meter in the units of its quantity (`units_of`).
 struct LightReading {
   Film::Average radiant;
   Film::Average luminous;
@@ -33,20 +32,18 @@ struct MeterReading {
 /// Confidence level of the reported intervals.
 inline constexpr double kMeterConfidence = 0.95;
 
-/// Units of a meter's radiometric, photometric and photon values.
+/// Units of the values of a `LightReading`.
 struct MeterUnits {
   const char* radiant;
   const char* luminous;
   const char* photons;
 };
-/// Units of a meter of that quantity, as texts.
 [[nodiscard]] const MeterUnits& units_of(MeterQuantity quantity);
 
 /// Reads the meter from the film of its scene (`camera_of`, `channels_of`), exposed for `exposure_s` [s],
 /// above 0. Values are per second and per m^2 or sr, not exposures.
 [[nodiscard]] MeterReading read_meter(const Meter& meter, const Film& film, double exposure_s);
 
-/// A meter's reading, with the integrator and the seed that produced it.
 struct MeterMeasurement {
   Meter meter;
   Integrator integrator;  ///< The integrator that rendered, also if the scene leaves the choice to Abbe.
@@ -73,12 +70,10 @@ struct MeterCallbacks {
                                                       const std::string& option);
 
 /// Renders the scene as built by `scene_of` for the meter, and reads the meter. A target error applies to the
-/// meter's three figures. `inputs` counts the memory of the render. Throws Error{resource} if that exceeds
-/// the rest of its limit.
-/// If the caller is strict, throws Error{scene}
-/// - for a `dark_camera_warning`;
-/// - for an `unsampled_light_warning` about an integrator that the scene names.
-/// The caller reports `coincidence_warning`, which is the same for all meters of a scene.
+/// meter's three figures. Throws Error{resource} if the memory of the render exceeds the rest of the limit of
+/// `inputs`. If the caller is strict, throws Error{scene} for a `dark_camera_warning`, and for an
+/// `unsampled_light_warning` about an integrator that the scene names. The caller reports
+/// `coincidence_warning`, which is the same for all meters of a scene.
 [[nodiscard]] MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions options,
                                              const MeterCallbacks& caller, Inputs& inputs);
 

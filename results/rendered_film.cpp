@@ -34,7 +34,7 @@ constexpr std::size_t kMaxShapes = 1024;
 // Records the features, and the names of the shapes that ids refer to.
 void add_features(const Scene& scene, const std::vector<Feature>& features, FilmIdentity& identity) {
   identity[kFeaturesKey] = to_text(features);
-  const bool ids = std::find(features.begin(), features.end(), Feature::id) != features.end();
+  const bool ids = std::ranges::find(features, Feature::id) != features.end();
   if (!ids || scene.shapes.size() > kMaxShapes) return;
   using Json = nlohmann::ordered_json;
   Json names = Json::array();
@@ -52,17 +52,14 @@ std::string single(double x) {
 // ones, as behind a filter wheel.
 std::optional<double> standard_exposure(const Scene& scene) {
   const auto count = [&scene](double ratio) {
-    return static_cast<std::size_t>(
-        std::count_if(scene.channels.begin(), scene.channels.end(),
-                      [ratio](const Channel& c) { return c.exposure_ratio == ratio; }));
+    return std::ranges::count(scene.channels, ratio, &Channel::exposure_ratio);
   };
   if (count(1) > 0) return scene.exposure_s;
   const double ratio = scene.channels.front().exposure_ratio;
-  if (count(ratio) == scene.channels.size()) return scene.exposure_s * ratio;
+  if (count(ratio) == std::ssize(scene.channels)) return scene.exposure_s * ratio;
   return std::nullopt;
 }
 
-// Records the sensitivity in daylight and, with a readout, the ISO speed.
 void add_speed(const Scene& scene, double area_m2, FilmIdentity& identity) {
   const auto sensitivity = daylight_sensitivity(scene.channels, area_m2);
   if (!sensitivity) return;
@@ -80,7 +77,6 @@ void add_display(const Scene& scene, FilmIdentity& identity) {
   }
 }
 
-// Adds the channels of a layer to those of the film.
 void add_layer(Image& film, const std::string& name, Image layer) {
   const std::string variance = variance_of("");
   for (ImageChannel& channel : layer.channels) {
@@ -105,12 +101,11 @@ const char* unit_of(ResponseKind kind) {
   throw Error(ErrorCode::internal, "", "unknown response kind");
 }
 
-// Rounds up to a multiple of four bytes.
-std::size_t padded(std::size_t size) {
-  return (size + 3) / 4 * 4;
+std::size_t padded(std::size_t bytes) {
+  return (bytes + 3) / 4 * 4;
 }
 
-// Description of the note "GNU" of type NT_GNU_BUILD_ID; empty if there is none.
+// Description of the note NT_GNU_BUILD_ID; empty if there is none.
 std::string_view build_id_among(std::string_view notes) {
   constexpr std::string_view kOwner("GNU\0", 4);
   while (notes.size() > sizeof(ElfW(Nhdr))) {
@@ -145,7 +140,7 @@ bool decides_bits(const dl_phdr_info& object) {
   return is_ours(object) || name.starts_with("libembree") || name.starts_with("libm.so");
 }
 
-// Callback of dl_iterate_phdr: appends the object's build id to the string `ids`.
+// Appends the object's build id to the string `ids`, as a callback of dl_iterate_phdr.
 int add_build_id(dl_phdr_info* object, std::size_t, void* ids) {
   if (!decides_bits(*object)) return 0;
   for (int i = 0; i < object->dlpi_phnum; ++i) {

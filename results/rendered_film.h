@@ -13,8 +13,8 @@ namespace abbe {
 /// Extension of files that hold exact sums.
 inline constexpr const char* kPartExtension = ".abbepart";
 
-/// Attributes of a film of the scene rendered with these options: version, build, scene, data, seed,
-/// integrator, sensor, crop, layers and features. The path `scene_file` contributes its file name only.
+/// Attributes of a film of the scene rendered with these options. The path `scene_file` contributes its file
+/// name only.
 [[nodiscard]] FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_file,
                                        const RenderOptions& options);
 

@@ -15,8 +15,8 @@ namespace abbe {
 namespace {
 
 bool emits_in_sensor_range(const Scene& scene) {
-  const std::vector<double> seen = emissions_of(scene).sensor_emissions;
-  return std::any_of(seen.begin(), seen.end(), [](double of_light) { return of_light > 0; });
+  return std::ranges::any_of(emissions_of(scene).sensor_emissions,
+                             [](double of_light) { return of_light > 0; });
 }
 
 // Sums of exactly 0 mean that no light was added to the film.
@@ -73,8 +73,7 @@ std::optional<std::string> undertrained_warning(const GuidingData* guides) {
   if (guides == nullptr) return std::nullopt;
   if (guides->undertrained)
     return "too few pilot photons contribute to the film to guide others: light that arrives through mirrors "
-           "and "
-           "glass is noisy, and its error is uncertain";
+           "and glass is noisy, and its error is uncertain";
   if (guides->undertrained_fraction > kNegligible)
     return fmt::format(
         "{:.2g} % of the light that pilot photons found takes paths that fewer than {} of them "

@@ -10,6 +10,7 @@
 #include "io/text.h"
 #include "results/rendered_film.h"
 #include "scene/camera/camera.h"
+#include "sensor/film/recorded_attributes.h"
 #include "sensor/film/spectral_film.h"
 
 namespace abbe {
@@ -30,20 +31,17 @@ std::optional<double> image_distance(const Camera& camera) {
   return distance ? std::optional(*distance / camera.pixel_pitch) : std::nullopt;
 }
 
-// The recorded `opening_tangent`; 0 if absent.
 double opening_of(const Image& film) {
-  const auto opening = film.metadata.find(kOpeningKey);
-  return opening == film.metadata.end() ? 0 : parse_number(opening->second).value();
+  return number_of(film.metadata, kOpeningKey).value_or(0);
 }
 
 // A camera that weights radiance like the one that made the film, given that one's opening.
 Camera camera_of(const Image& film) {
-  const double central =
-      parse_number(film.metadata.at(kAxisKey)).value() * (1 + std::pow(opening_of(film), 2));
+  const double central = number_of(film.metadata, kAxisKey).value() * (1 + std::pow(opening_of(film), 2));
   Camera camera{IrradianceProbe{}, film.width, film.height, 1};
-  if (const auto distance = film.metadata.find(kDistanceKey); distance != film.metadata.end()) {
+  if (const auto distance = number_of(film.metadata, kDistanceKey)) {
     Pinhole lens;
-    lens.image_distance = parse_number(distance->second).value();
+    lens.image_distance = *distance;
     lens.aperture_radius = lens.image_distance * std::sqrt(central / std::numbers::pi);
     camera.kind = lens;
   }
@@ -60,7 +58,6 @@ std::vector<double> exposure_per_radiance(const Camera& camera, double opening, 
   return factors;
 }
 
-// The recorded bins of a spectral film.
 SpectralBins bins_of(const Image& film) {
   const std::vector<std::string> words = split(film.metadata.at(kSpectralBinsKey), ' ');
   return {parse_number(words.at(0)).value(), parse_number(words.at(1)).value(),
@@ -69,27 +66,25 @@ SpectralBins bins_of(const Image& film) {
 
 // Exposure time [s] times the mean transmission of the shutter.
 double exposure_of(const Image& film) {
-  const auto shutter = film.metadata.find(kShutterKey);
-  const double transmission = shutter == film.metadata.end() ? 1 : parse_number(shutter->second).value();
-  return parse_number(film.metadata.at("exposure_s")).value() * transmission;
+  return number_of(film.metadata, "exposure_s").value() * number_of(film.metadata, kShutterKey).value_or(1);
 }
 
 // Files of Abbe record the camera; files of other programs do not.
 void require_same_view(const SpectralImage& image, const Camera& camera, const std::filesystem::path& path) {
   if (!image.metadata.contains(kAxisKey)) return;
-  const auto found = image.metadata.find(kDistanceKey);
-  const bool lens = found != image.metadata.end();
+  const std::optional<std::string> theirs = attribute_of(image.metadata, kDistanceKey);
+  const bool lens = theirs.has_value();
   const std::optional<double> ours = image_distance(camera);
   if (lens != ours.has_value())
     throw Error(ErrorCode::input, path.string(),
                 fmt::format("was rendered with another kind of camera (got {}, allowed {})",
                             lens ? "a lens" : "a meter", lens ? "a meter" : "a lens"));
-  if (lens && std::abs(parse_number(found->second).value_or(0) / *ours - 1) > 1e-6)
+  if (lens && std::abs(parse_number(*theirs).value_or(0) / *ours - 1) > 1e-6)
     throw Error(
         ErrorCode::input, path.string(),
         fmt::format(
             "was rendered with another field of view (got an image distance of {} pixels, allowed {})",
-            found->second, *ours));
+            *theirs, *ours));
 }
 
 }  // namespace

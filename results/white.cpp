@@ -80,17 +80,13 @@ std::optional<White> white_of_film(const Scene& scene, const Image& film) {
   return White{name, "the film's", *xy};
 }
 
-// A light that a film records.
 struct RecordedLight {
   std::string name;
   std::optional<Chromaticity> xy;  // Empty if several lights have this name.
 };
 
-// The lights that a film records; empty if it records none.
 std::vector<RecordedLight> recorded_lights(const Image& film) {
-  const auto recorded = film.metadata.find(kLightsXyKey);
-  Json parsed = Json::object();
-  if (recorded != film.metadata.end()) parsed = Json::parse(recorded->second, nullptr, false);
+  const Json parsed = Json::parse(attribute_of(film.metadata, kLightsXyKey).value_or("{}"), nullptr, false);
   std::vector<RecordedLight> lights;
   for (const auto& [name, xy] : parsed.items())
     if (xy.is_null())
@@ -103,18 +99,16 @@ std::vector<RecordedLight> recorded_lights(const Image& film) {
 // The chromaticity that a film records of a light. For the light of the film's white it is that of the white,
 // which may be that of the full spectrum.
 Chromaticity recorded_color(const RecordedLight& light, const Image& film) {
-  const auto white = film.metadata.find(kWhiteKey);
-  const bool is_white = white != film.metadata.end() && white->second == light.name;
+  const bool is_white = attribute_of(film.metadata, kWhiteKey) == light.name;
   const std::optional<Chromaticity> xy = is_white ? recorded_white(film) : std::nullopt;
   return xy ? *xy : light.xy.value_or(Chromaticity{});
 }
 
-// True if all channels of the scene's sensor and the observer's X, Y and Z respond to a light.
 bool is_visible(const Curve& light, const Scene& scene) {
   const XYZ xyz = tristimulus(light, Curve(1.0), film_observer_of(scene).observer);
   const std::vector<Channel> channels = intensities(scene.channels);
-  return std::all_of(xyz.begin(), xyz.end(), [](double value) { return value > 0; }) &&
-         std::all_of(channels.begin(), channels.end(), [&](const Channel& channel) {
+  return std::ranges::all_of(xyz, [](double value) { return value > 0; }) &&
+         std::ranges::all_of(channels, [&](const Channel& channel) {
            return sum_product(light, channel.weight, sensed(channels)) > 0;
          });
 }
@@ -157,7 +151,6 @@ std::vector<LightLayer> layers_of(std::vector<LightContribution> contributions,
   return layers;
 }
 
-// Contribution of a layer and of all layers of its colour.
 double group_contribution(const std::vector<LightLayer>& layers, const LightLayer& layer,
                           double LightContribution::*when) {
   double sum = 0;
@@ -187,8 +180,7 @@ LightLayer* layer_of_white(std::vector<LightLayer>& layers, const std::vector<Re
   const auto xy = recorded_white(film);
   if (!xy) return nullptr;
   const std::string& name = film.metadata.at(kWhiteKey);
-  const auto light = std::find_if(lights.begin(), lights.end(),
-                                  [&](const RecordedLight& recorded) { return recorded.name == name; });
+  const auto light = std::ranges::find(lights, name, &RecordedLight::name);
   if (light != lights.end() ? light->xy && !is_same(light->xy, xy) : !lights.empty()) return nullptr;
   LightLayer* layer = layer_of(layers, name);
   if (layer != nullptr) layer->xy = xy;
@@ -250,8 +242,7 @@ void add_white(const Scene& scene, FilmIdentity& identity) {
   const FilmObserver film_observer = film_observer_of(scene);
   Json lights = Json::object();
   for (const Light& light : scene.lights)
-    if (std::count_if(scene.lights.begin(), scene.lights.end(),
-                      [&light](const Light& other) { return other.name == light.name; }) > 1)
+    if (std::ranges::count(scene.lights, light.name, &Light::name) > 1)
       lights[light.name] = nullptr;
     else if (const Chromaticity xy = white_of(light, film_observer, "").xy; std::isfinite(xy[0]))
       lights[light.name] = xy;

@@ -39,8 +39,8 @@ void resolve_white(Scene& scene, const std::filesystem::path& path, const Image&
                    const std::optional<std::string>& requested, std::string_view origin);
 
 /// Parses a requested white in the syntax of `output/white`; it may name a light that the film records.
-/// `origin` names the option or keyword of the request. Throws Error{usage} for an unknown white, and for one
-/// to which chromatic adaptation is impossible.
+/// `origin` names the option or keyword. Throws Error{usage} for an unknown white, and for one to which
+/// chromatic adaptation is impossible.
 [[nodiscard]] White requested_white(const std::string& text, const Image& film, std::string_view origin);
 
 /// The white of a film whose lights are to be scaled.

@@ -41,7 +41,6 @@ struct Listing {
   std::optional<int> bits;
 };
 
-// Scale from values to codes: the file's own, unless the listing overrides it.
 struct Scale {
   double black = 0;
   double full = 1;
@@ -82,7 +81,7 @@ std::vector<Crop> build_regions(const Listing& listing, Diagnostics& diagnostics
   return regions;
 }
 
-// Reads the listing. Its errors are reported as errors of an input, not of a scene.
+// Errors are those of an input, not of a scene.
 std::optional<Listing> read_listing(const std::filesystem::path& path, Diagnostics& diagnostics) {
   const auto source = read_text(path, diagnostics);
   if (!source) return std::nullopt;
@@ -127,7 +126,6 @@ std::vector<const ImageChannel*> planes_of(const Image& image) {
   return planes;
 }
 
-// Mosaic of a photograph of one plane; empty for others.
 std::optional<Mosaic> mosaic_of(const Image& image, const std::optional<RawScale>& recorded) {
   return recorded && planes_of(image).size() == 1 ? recorded->mosaic : std::nullopt;
 }
@@ -146,7 +144,7 @@ double full_dn(const Image& image, const Listing& listing, const RawScale& codes
   return codes.linear(code_of(static_cast<float>(*listing.full_scale)));
 }
 
-// Scale of a photograph. `codes` is set if the image holds the codes of a raw file.
+// The file's own scale, unless the listing overrides it. `codes` is set for a raw file.
 Scale scale_of(const Image& image, const Listing& listing, const std::optional<RawScale>& codes) {
   Scale scale{0, listing.full_scale.value_or(1)};
   if (codes) {
@@ -205,7 +203,7 @@ bool is_finite(const ImageChannel* channel) {
   return std::ranges::all_of(channel->values, [](float v) { return std::isfinite(v); });
 }
 
-// Error of a photograph in comparison with the first; empty if there is none.
+// Fault of a photograph in comparison with the first; empty if there is none.
 std::string objection(const Image& image, const Image& first, const Listing& listing) {
   if (image.width != first.width || image.height != first.height)
     return fmt::format("has {} x {} pixels, the first {} x {}", image.width, image.height, first.width,
@@ -220,7 +218,6 @@ std::string objection(const Image& image, const Image& first, const Listing& lis
   return "";
 }
 
-// Reason why a raw file cannot clip at the full scale of the listing; empty if it can.
 std::string full_scale_objection(const Image& image, const Listing& listing, const RawScale& codes) {
   if (!listing.full_scale) return "";
   const double code = code_of(static_cast<float>(*listing.full_scale));
@@ -254,7 +251,6 @@ void add(const Image& image, const std::optional<RawScale>& recorded, const std:
     }
 }
 
-// Adds a series without exposures for each channel.
 void start_series(const std::vector<std::string>& channels, std::size_t regions, PhotographedSeries& all) {
   const std::vector<std::vector<double>> none(regions);
   for (const std::string& channel : channels) {

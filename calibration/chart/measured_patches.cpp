@@ -12,6 +12,7 @@
 #include "io/table.h"
 #include "io/text.h"
 #include "sensor/film/patch.h"
+#include "sensor/film/recorded_attributes.h"
 #include "spectral/curve_use.h"
 
 namespace abbe {
@@ -46,7 +47,6 @@ std::optional<std::vector<std::string>> patch_names(const Table& table, Diagnost
   return names;
 }
 
-// True if no patch is named twice. It would be arbitrary which of the values counts, so that is an error.
 bool are_unique(const std::vector<std::string>& names, const Table& table, Diagnostics& diagnostics) {
   std::set<std::string_view> unique;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -64,7 +64,6 @@ bool is_unknown(const std::string& deviation, double pixels) {
   return deviation.empty() || (pixels == 1 && parse_number(deviation) == 0.0);
 }
 
-// True if the noise of a patch in use is unknown. A warning names the first such patch.
 bool is_noise_unknown(const Table& table, const MeasuredPatches& patches, const std::vector<Raw>& pixels,
                       Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < table.rows.size(); ++i)
@@ -81,7 +80,6 @@ bool is_noise_unknown(const Table& table, const MeasuredPatches& patches, const 
   return false;
 }
 
-// Deviations of single pixels; 0 for an empty cell.
 std::optional<std::vector<Raw>> pixel_deviations(Table table, Diagnostics& diagnostics) {
   for (const char* name : kDeviations)
     if (const auto column = table.column(name))
@@ -90,23 +88,21 @@ std::optional<std::vector<Raw>> pixel_deviations(Table table, Diagnostics& diagn
   return triples(table, kDeviations, diagnostics);
 }
 
-// Deviations of the means over the pixels of each patch; an empty list if the table has no noise.
-std::optional<std::vector<Raw>> deviations_of(const Table& table, const MeasuredPatches& patches,
-                                              Diagnostics& diagnostics) {
-  if (!table.column(kDeviations[0])) return std::vector<Raw>{};
-  const auto pixels = triples(table, kPixels, diagnostics);
-  auto deviations = pixel_deviations(table, diagnostics);
-  if (!deviations || !pixels) return std::nullopt;
-  for (std::size_t i = 0; i < deviations->size(); ++i)
+// Deviations of the means over the pixels of each patch; an empty list if one of a patch in use is unknown.
+std::optional<std::vector<Raw>> deviations_of_means(const Table& table, const MeasuredPatches& patches,
+                                                    std::vector<Raw> deviations,
+                                                    const std::vector<Raw>& pixels,
+                                                    Diagnostics& diagnostics) {
+  if (deviations.empty()) return deviations;
+  for (std::size_t i = 0; i < deviations.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      double& deviation = (*deviations)[i][k];
-      if (!(deviation >= 0 && (*pixels)[i][k] >= 1))
+      if (!(deviations[i][k] >= 0 && pixels[i][k] >= 1))
         diagnostics.error(table.position(i), "expected deviations of 0 or more and 1 pixel or more",
                           ErrorCode::input);
-      deviation /= std::sqrt((*pixels)[i][k]);
+      deviations[i][k] /= std::sqrt(pixels[i][k]);
     }
   if (diagnostics.has_errors()) return std::nullopt;
-  return is_noise_unknown(table, patches, *pixels, diagnostics) ? std::vector<Raw>{} : deviations;
+  return is_noise_unknown(table, patches, pixels, diagnostics) ? std::vector<Raw>{} : deviations;
 }
 
 // True if more pixels are saturated than may be defective. A value below 1 is a fraction of the pixels, which
@@ -117,23 +113,22 @@ bool is_too_bright(double saturated, double pixels) {
 
 // Patches at the highest value of a channel without deviation, if all others have a deviation. The camera
 // clips them, although a table without columns of saturated pixels does not record it.
-std::set<std::string> noiseless_maxima(const Table& table, const std::vector<std::string>& names,
-                                       const std::vector<Raw>& values, Diagnostics& diagnostics) {
+std::set<std::string> noiseless_maxima(const Table& table, const MeasuredPatches& patches,
+                                       const std::vector<Raw>& deviations, const std::vector<Raw>& pixels,
+                                       Diagnostics& diagnostics) {
   constexpr double kMinPixels = 16;  // fewer pixels may be equal by chance
+  const auto& names = patches.names;
   std::set<std::string> noiseless;
-  if (!table.column(kDeviations[0]) || !table.column(kPixels[0])) return noiseless;
-  const auto deviations = pixel_deviations(table, diagnostics);
-  const auto pixels = triples(table, kPixels, diagnostics);
-  if (!deviations || !pixels) return noiseless;
+  if (deviations.empty()) return noiseless;
   for (std::size_t k = 0; k < 3; ++k) {
     double top = 0;
-    for (const Raw& value : values) top = std::max(top, value[k]);
+    for (const Raw& value : patches.values) top = std::max(top, value[k]);
     std::size_t noisy = 0;
     std::vector<std::size_t> clipped;
     for (std::size_t i = 0; i < names.size(); ++i)
-      if ((*deviations)[i][k] > 0)
+      if (deviations[i][k] > 0)
         ++noisy;
-      else if (values[i][k] == top && (*pixels)[i][k] >= kMinPixels)
+      else if (patches.values[i][k] == top && pixels[i][k] >= kMinPixels)
         clipped.push_back(i);
     if (noisy == 0 || noisy + clipped.size() < names.size()) continue;
     for (const std::size_t i : clipped)
@@ -147,19 +142,15 @@ std::set<std::string> noiseless_maxima(const Table& table, const std::vector<std
 }
 
 // Patches with more saturated pixels than may be defective, with a warning for each. Without columns of
-// pixels, any saturated pixel counts.
+// pixels, which are 0 then, any saturated pixel counts.
 std::set<std::string> saturated_in(const Table& table, const std::vector<std::string>& names,
-                                   const std::vector<Raw>& values, Diagnostics& diagnostics) {
+                                   const std::vector<Raw>& pixels, Diagnostics& diagnostics) {
   std::set<std::string> saturated;
-  if (!table.column("R_saturated")) return noiseless_maxima(table, names, values, diagnostics);
   const auto counts = triples(table, {"R_saturated", "G_saturated", "B_saturated"}, diagnostics);
-  const auto pixels =
-      table.column(kPixels[0]) ? triples(table, kPixels, diagnostics) : std::vector<Raw>(names.size());
-  if (!counts || !pixels) return saturated;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; counts && i < names.size(); ++i) {
     bool is_saturated = false;
     for (std::size_t k = 0; k < 3; ++k)
-      is_saturated = is_saturated || is_too_bright((*counts)[i][k], (*pixels)[i][k]);
+      is_saturated = is_saturated || is_too_bright((*counts)[i][k], pixels[i][k]);
     if (!is_saturated) continue;
     saturated.insert(names[i]);
     diagnostics.warning(
@@ -177,7 +168,6 @@ XYZ from_xyy(const std::array<double, 3>& c) {
   return {c[0] / c[1] * c[2], c[2], (1 - c[0] - c[1]) / c[1] * c[2]};
 }
 
-// Reason why a row does not state a valid colour; empty if it does.
 std::optional<std::string> color_fault(const std::array<double, 3>& c, bool is_lab, const XYZ& xyz) {
   const bool is_finite = std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]);
   if (!is_finite || !(is_lab || c[1] > 0 || c[2] == 0))
@@ -190,7 +180,6 @@ std::optional<std::string> color_fault(const std::array<double, 3>& c, bool is_l
       highest);
 }
 
-// Colours of a table's rows, from L, a, b or from x, y, Y; empty if a row is invalid.
 std::optional<std::vector<XYZ>> stated_rows(const Table& table, const XYZ& white, Diagnostics& diagnostics) {
   const bool is_lab = table.column("L").has_value();
   const auto values =
@@ -207,10 +196,9 @@ std::optional<std::vector<XYZ>> stated_rows(const Table& table, const XYZ& white
 }
 
 std::optional<ChartTargets> stated_colors(const Table& table, Diagnostics& diagnostics) {
-  const auto key = table.keys.find("white_xy");
   std::vector<double> xy;
-  if (key != table.keys.end())
-    for (const std::string& piece : split(key->second, ',')) xy.push_back(parse_number(piece).value_or(0));
+  for (const std::string& piece : split(attribute_of(table.keys, "white_xy").value_or(""), ','))
+    xy.push_back(parse_number(piece).value_or(0));
   if (xy.size() != 2 || !(xy[0] > 0 && xy[1] > 0)) {
     diagnostics.error(table.where,
                       "neither wavelengths nor a line \"# white_xy: x, y\" of two chromaticity coordinates",
@@ -257,9 +245,7 @@ void warn_of_codes(const std::filesystem::path& file, const std::string& instead
 
 void warn_unless_linear(const Image& picture, const std::filesystem::path& file, const std::string& instead,
                         Diagnostics& diagnostics) {
-  const auto attribute = picture.metadata.find(kColorSpace);
-  if (attribute == picture.metadata.end() || attribute->second != kLinear)
-    warn_of_codes(file, instead, diagnostics);
+  if (attribute_of(picture.metadata, kColorSpace) != kLinear) warn_of_codes(file, instead, diagnostics);
 }
 
 std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path& path,
@@ -269,11 +255,18 @@ std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path
   auto names = patch_names(*table, diagnostics);
   auto values = triples(*table, {"R", "G", "B"}, diagnostics);
   if (!names || !values || !are_unique(*names, *table, diagnostics)) return std::nullopt;
-  const auto unit = table->keys.find("unit");
   MeasuredPatches patches{*std::move(names), *std::move(values)};
-  patches.unit = unit == table->keys.end() ? "" : unit->second;
-  patches.saturated = saturated_in(*table, patches.names, patches.values, diagnostics);
-  auto deviations = deviations_of(*table, patches, diagnostics);
+  patches.unit = attribute_of(table->keys, "unit").value_or("");
+  const bool has_noise = table->column(kDeviations[0]).has_value();
+  const bool counts_saturated = table->column("R_saturated").has_value();
+  const auto pixels = has_noise || (counts_saturated && table->column(kPixels[0]))
+                          ? triples(*table, kPixels, diagnostics)
+                          : std::vector<Raw>(patches.names.size());
+  const auto of_pixels = has_noise ? pixel_deviations(*table, diagnostics) : std::vector<Raw>{};
+  if (!pixels || !of_pixels) return std::nullopt;
+  patches.saturated = counts_saturated ? saturated_in(*table, patches.names, *pixels, diagnostics)
+                                       : noiseless_maxima(*table, patches, *of_pixels, *pixels, diagnostics);
+  auto deviations = deviations_of_means(*table, patches, *of_pixels, *pixels, diagnostics);
   if (!deviations) return std::nullopt;
   patches.deviations = *std::move(deviations);
   return patches;

@@ -19,11 +19,9 @@ void require_visible(const Channel& channel, double diffuser) {
 
 // Channel whose diffuser value is the unit of raw values.
 const Channel& reference_channel(std::span<const Channel> channels) {
-  for (const char* name : {"G", "Y"}) {
-    const auto found =
-        std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
-    if (found != channels.end()) return *found;
-  }
+  for (const char* name : {"G", "Y"})
+    if (const auto found = std::ranges::find(channels, name, &Channel::name); found != channels.end())
+      return *found;
   return channels.front();
 }
 

@@ -22,7 +22,6 @@ namespace {
 constexpr const char* kWhiteLevel = "white_level_dn";
 using Attributes = std::map<std::string, std::string>;
 
-// Lines "key: value" of a TIFF's description, as attributes.
 Attributes description_lines(const Image& image) {
   Attributes attributes;
   for (const std::string& line : split(attribute_of(image.metadata, "ImageDescription").value_or(""), '\n'))
@@ -37,7 +36,6 @@ Attributes all_attributes(const Image& image) {
   return attributes;
 }
 
-// Attributes `exposure_s.CHANNEL`, by channel.
 std::map<std::string, double> own_exposures(const Attributes& attributes) {
   const std::string prefix = "exposure_s.";
   std::map<std::string, double> own;
@@ -52,7 +50,6 @@ bool holds_codes(const Attributes& attributes) {
   return attributes.contains(kWhiteLevel);
 }
 
-// Read-out from the JSON description of a sensor.
 Readout readout_of(const std::string& sensor, std::optional<double> sensitivity) {
   Diagnostics diagnostics;
   const auto json = parse_json(std::make_shared<const SourceText>(SourceText{"sensor", sensor}), diagnostics);
@@ -62,7 +59,6 @@ Readout readout_of(const std::string& sensor, std::optional<double> sensitivity)
   return *std::move(readout);
 }
 
-// Replaces codes by those of a straight line.
 void straighten(Image& image, const RawScale& scale) {
   const auto step = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike
   for (ImageChannel& plane : image.channels)

@@ -70,11 +70,10 @@ struct RawScale {
 /// Mosaic of a raw picture; empty if it has none.
 [[nodiscard]] std::optional<Mosaic> mosaic_of(const RawPicture& raw);
 
-/// Turns the lines "key: value" of a TIFF's or DNG's `ImageDescription` into attributes. Attributes that the
-/// image has already keep their values.
+/// Turns the lines "key: value" of `ImageDescription` into attributes that the image does not have yet.
 void add_description_attributes(Image& image);
 
-/// Removes the alpha channel of a picture, which describes how opaque its pixels are.
+/// Removes the alpha channel of a picture.
 void drop_alpha(Image& image);
 
 /// Renames the planes R, G and B of a raw TIFF or PNG to the sensor channels that the file records. If their

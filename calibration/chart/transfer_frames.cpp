@@ -52,7 +52,6 @@ Frame read_frame(const std::filesystem::path& file, Inputs& inputs, std::vector<
   return frame;
 }
 
-// Throws Error{input} unless a frame has the sensor and the settings of the first frame.
 void require_alike(const Frame& frame, const Frame& first, const std::filesystem::path& file) {
   if (!std::ranges::equal(frame.channels, first.channels, {}, &ChannelCodes::channel,
                           &ChannelCodes::channel) ||
@@ -74,7 +73,7 @@ void require_alike(const Frame& frame, const Frame& first, const std::filesystem
     refuse(file, "has another response curve, offset_dn or saturation_dn than the first frame");
 }
 
-// Throws Error{input} if noise is cut off at the lowest code, which raises the mean and lowers the scatter.
+// Noise that is cut off at the lowest code raises the mean and lowers the scatter.
 // If all codes are the lowest, as of an ideal read-out in the dark, there is no scatter to cut.
 void require_no_underflow(const Frame& frame, const std::filesystem::path& file) {
   const double lowest = frame.scale.linear(0);
@@ -119,8 +118,7 @@ Moments moments(const ChannelCodes& codes) {
   return {mean, std::max(squares, row_squares) / n / n, row_sums.size()};
 }
 
-// Throws Error{input} unless the second of two frames saw the light of the first and is not a copy. In the
-// dark, a few rows do not determine whether the means differ by more than noise.
+// A few rows do not determine, in the dark, whether the means differ by more than noise.
 void require_pair(const Frame& first, const Frame& second, bool are_dark, const std::filesystem::path& file) {
   if (second.scale.exposure_s != first.scale.exposure_s)
     refuse(file, fmt::format("is exposed for {} s and the frame before it for {}: two consecutive frames of "
@@ -145,7 +143,6 @@ void require_pair(const Frame& first, const Frame& second, bool are_dark, const 
   if (is_copy) refuse(file, "has exactly the codes of the frame before it: two exposures are needed");
 }
 
-// Reads all frames and checks each against the first one, and each pair against the other of the pair.
 std::vector<Frame> read_frames(std::span<const std::filesystem::path> files, bool are_dark, Inputs& inputs,
                                std::vector<std::string>* warnings) {
   std::vector<Frame> frames;

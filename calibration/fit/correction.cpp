@@ -23,10 +23,9 @@ constexpr double kJitter = 0.1;  // standard deviation of a start's coefficients
 // and colours differ by almost nothing.
 constexpr double kMinDifference = 1e-6;
 
-// Columns of all terms but the last, which follows from the white.
+// Columns of all terms but the last, whose column is the white minus their sum.
 using Parameters = std::vector<double>;
 
-// Correction from the columns of all terms but the last, whose column is the white minus their sum.
 ColorCorrection correction_of(CorrectionModel model, const Parameters& p, const XYZ& white) {
   ColorCorrection correction{model, std::vector<XYZ>(term_count(model))};
   XYZ rest = white;
@@ -47,7 +46,7 @@ Parameters parameters_of(const ColorCorrection& correction) {
   return p;
 }
 
-// Residual of one patch: its corrected L*a*b* against the true colour, as a function of the parameters.
+// Difference between the corrected L*a*b* of a patch and its true colour.
 template <std::size_t kTerms>
 struct PatchResidual {
   std::vector<double> terms;
@@ -126,7 +125,6 @@ bool usable(const Attempt& attempt) {
                      [](double p) { return std::isfinite(p); });
 }
 
-// Value of the objective, with the patches weighted.
 double objective_of(const PatchErrors& errors, const PatchColors& colors, Objective objective) {
   const bool is_76 = objective == Objective::delta_e_76;
   if (colors.weights.empty()) return is_76 ? errors.mean_76 : errors.mean;
@@ -134,7 +132,6 @@ double objective_of(const PatchErrors& errors, const PatchColors& colors, Object
   return std::inner_product(values.begin(), values.end(), colors.weights.begin(), 0.0);
 }
 
-// Throws Error{input} unless the matrix has full column rank.
 void require_determined(const Eigen::MatrixXd& a, Eigen::Index rank) {
   if (rank == a.cols() && a.allFinite()) return;
   throw Error(ErrorCode::input, "colour correction",
@@ -159,7 +156,6 @@ Eigen::MatrixXd solve_least_squares(const Eigen::MatrixXd& a, const Eigen::Matri
   return solution;
 }
 
-// One row per triple.
 Eigen::MatrixXd rows_of(const std::vector<std::array<double, 3>>& values) {
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(values.size()), 3);
   for (Eigen::Index i = 0; i < rows.rows(); ++i)
@@ -167,7 +163,6 @@ Eigen::MatrixXd rows_of(const std::vector<std::array<double, 3>>& values) {
   return rows;
 }
 
-// Mean of values with the given weights; the plain mean if there are none.
 double weighted_mean(const std::vector<double>& values, const std::vector<double>& weights) {
   if (weights.empty())
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

@@ -22,7 +22,6 @@ enum class CorrectionModel {
 /// Names of the models, in the order of `CorrectionModel`.
 inline constexpr std::array kCorrectionNames{"matrix", "root-polynomial-2", "root-polynomial-3"};
 
-/// Number of terms of a model.
 [[nodiscard]] constexpr std::size_t term_count(CorrectionModel model) {
   return model == CorrectionModel::linear ? 3 : model == CorrectionModel::root_polynomial_2 ? 6 : 13;
 }
@@ -40,7 +39,6 @@ struct ColorCorrection {
   [[nodiscard]] XYZ operator()(const Raw& raw) const;
 };
 
-/// Correction by a matrix.
 [[nodiscard]] ColorCorrection linear_correction(const Matrix3& raw_to_xyz);
 
 /// Matrix of the first three columns of a correction, which are all columns of a linear one.
@@ -63,10 +61,9 @@ enum class Objective {
 [[nodiscard]] ColorCorrection white_preserving_least_squares(const PatchColors& colors,
                                                              CorrectionModel model = CorrectionModel::linear);
 
-/// Colour differences of each patch between corrected raw values and true colour, relative to the
-/// illuminant's white.
+/// Colour differences between corrected raw values and true colours, relative to the illuminant's white.
 struct PatchErrors {
-  std::vector<double> delta_e;     ///< CIEDE2000 of each patch, in the order of the patches.
+  std::vector<double> delta_e;     ///< CIEDE2000 of each patch.
   double mean = 0;                 ///< Mean of `delta_e`, without weights.
   double max = 0;                  ///< Maximum of `delta_e`.
   std::vector<double> delta_e_76;  ///< Distance in L*a*b* of each patch.
@@ -101,12 +98,10 @@ struct CorrectionOptions {
   int max_iterations = 2000;
 };
 
-/// True if there are at least four patches for each term of a root polynomial. True for any number with a
-/// matrix.
+/// True for a matrix, and if there are at least four patches for each term of a root polynomial.
 [[nodiscard]] bool are_enough_patches(CorrectionModel model, std::size_t patches);
 
-/// Throws Error{usage} if there are fewer than four patches for each term of a root polynomial: its terms
-/// would then follow the patches instead of the camera.
+/// Throws Error{usage} unless `are_enough_patches`: the terms would follow the patches instead of the camera.
 void require_enough_patches(CorrectionModel model, std::size_t patches);
 
 /// White-preserving correction that minimises the objective over the patches. The last term's column follows

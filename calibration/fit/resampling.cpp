@@ -18,7 +18,6 @@ constexpr double kTail = 0.025;  // probability on either side of a 95 % interva
 constexpr int kStarts = 2;
 constexpr std::uint64_t kSeed = 1;  // of the draws
 
-// Selects patches by index, in this order and with repetition.
 PatchColors selection(const PatchColors& colors, const std::vector<std::size_t>& indices) {
   PatchColors some;
   some.white = colors.white;
@@ -31,7 +30,7 @@ PatchColors selection(const PatchColors& colors, const std::vector<std::size_t>&
   return some;
 }
 
-// Draws `count` indices with replacement.
+// Draws as many indices with replacement.
 std::vector<std::size_t> draw_indices(std::size_t count, std::mt19937_64& random) {
   std::uniform_int_distribution<std::size_t> any(0, count - 1);
   std::vector<std::size_t> indices(count);
@@ -39,7 +38,6 @@ std::vector<std::size_t> draw_indices(std::size_t count, std::mt19937_64& random
   return indices;
 }
 
-// Values at the two ends of the central 95 %.
 Interval percentiles(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto at = [&](double fraction) {

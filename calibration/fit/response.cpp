@@ -44,7 +44,7 @@ void require_for_response(bool condition, const std::string& message) {
   if (!condition) throw Error(ErrorCode::input, "response fit", message);
 }
 
-// Ratios of the codes at two times, for each patch that is neither black nor clipped at either.
+// Ratios of the codes at two times, of the patches that are neither black nor clipped.
 std::vector<double> ratios(const ExposureSeries& series, std::size_t from, std::size_t to) {
   const auto is_usable = [](double code) { return code > 0 && code < 1; };
   std::vector<double> all;
@@ -53,7 +53,6 @@ std::vector<double> ratios(const ExposureSeries& series, std::size_t from, std::
   return all;
 }
 
-// Throws Error{input} if the codes of most patches fall from one photograph to the next longer one.
 void require_rise(const ExposureSeries& series, std::size_t from, std::size_t to) {
   constexpr std::size_t kMinPatches = 4;
   const std::vector<double> code_ratios = ratios(series, from, to);
@@ -185,7 +184,7 @@ ResponseUnknowns start(const std::vector<ResponseSample>& samples, std::size_t p
   return unknowns;
 }
 
-/// Silences Ceres, because the thrown errors contain its messages.
+// Silences Ceres, because the thrown errors contain its messages.
 struct QuietLibrary {
   int before = std::exchange(FLAGS_minloglevel, google::GLOG_FATAL);
 
@@ -195,7 +194,7 @@ struct QuietLibrary {
   ~QuietLibrary() { FLAGS_minloglevel = before; }
 };
 
-// Minimises the cost from `unknowns`, which receive the solution. Throws Error{input} without convergence.
+// Minimises the cost from `unknowns`, which receive the solution.
 ceres::Solver::Summary converge(const WeightedSamples& data, double roughness, int max_iterations,
                                 ResponseUnknowns& unknowns) {
   const auto problem = all_terms(data, roughness, unknowns);
@@ -218,7 +217,6 @@ ceres::Solver::Summary converge(const WeightedSamples& data, double roughness, i
   return summary;
 }
 
-// Absolute errors of the code values.
 std::vector<double> code_errors(const std::vector<ResponseSample>& samples,
                                 const ResponseUnknowns& unknowns) {
   const ResponseModel<double> model = unknowns.model();
@@ -308,7 +306,6 @@ std::vector<double> log_deviations(const WeightedSamples& data, double roughness
   return deviations;
 }
 
-// Linear exposure over that of full scale at equidistant codes.
 std::vector<double> tabulate(const ResponseUnknowns& unknowns) {
   const ResponseModel<double> model = unknowns.model();
   const double full_scale = model(1.0);
@@ -317,7 +314,6 @@ std::vector<double> tabulate(const ResponseUnknowns& unknowns) {
   return table;
 }
 
-// Distances of a sample from the curve.
 struct SampleError {
   double code;          // predicted by the curve, since outliers move from dense codes to sparse ones
   double deviations;    // error of the code in standard deviations
@@ -388,7 +384,6 @@ std::optional<ResponseMisfit> misfit_of(const std::vector<SampleError>& errors) 
   return misfit;
 }
 
-// Widens the interval to include the misfit.
 void widen(std::vector<double>& log_deviation, const ResponseMisfit& misfit) {
   for (std::size_t i = 0; i < kTableSize; ++i)
     if (code_of_entry(i) >= misfit.low_code && code_of_entry(i) <= misfit.high_code)

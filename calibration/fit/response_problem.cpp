@@ -11,8 +11,7 @@ namespace {
 constexpr double kDarkMargin = 8;
 constexpr double kBrightMargin = 4;  // standard deviations from full scale
 
-// Residual w (g(z) - ln E - ln t) of a code z, with its weight w, the curve g, the exposure E and the time
-// t.
+// Residual w (g(z) - ln E - ln t) of a code z with weight w, curve g, exposure E and time t.
 struct SampleResidual {
   ResponseSample sample;
   double weight;
@@ -24,8 +23,7 @@ struct SampleResidual {
   }
 };
 
-// Residuals of the smoothness term: second differences of the coefficients times `roughness`, and first
-// differences. The latter have a small weight, which only continues the slope where there are no samples.
+// First differences have a small weight, which only continues the slope where there are no samples.
 struct ResponseSmoothness {
   static constexpr std::size_t kCoefficients = ResponseModel<double>::kCoefficients;
   static constexpr int kTerms = static_cast<int>(2 * kCoefficients - 3);  // Number of residuals.

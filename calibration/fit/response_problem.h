@@ -40,8 +40,8 @@ struct ResponseSample {
 template <typename T>
 class ResponseModel {
  public:
-  static constexpr std::size_t kCoefficients = 32;  ///< Number of B-splines.
-  static constexpr double kMidCode = 0.5;           ///< Code of mid-scale, at which the model is zero.
+  static constexpr std::size_t kCoefficients = 32;
+  static constexpr double kMidCode = 0.5;
 
   /// `theta` points to the kCoefficients logarithms of the coefficients, which must outlive the model.
   explicit ResponseModel(const T* theta) : theta_(theta) {}
@@ -111,12 +111,10 @@ class ResponseModel {
 
 /// Unknowns of a response fit. All 0 is a straight line in the coordinate of `ResponseModel`.
 struct ResponseUnknowns {
-  /// Logarithms of the coefficients of the curve.
   std::array<double, ResponseModel<double>::kCoefficients> theta{};
   /// One per patch: ln of its exposure in one second, relative to that of kMidCode.
   std::vector<double> log_exposure;
 
-  /// Curve of these coefficients, to which it refers.
   [[nodiscard]] ResponseModel<double> model() const { return ResponseModel<double>(theta.data()); }
 };
 

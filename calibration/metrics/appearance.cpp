@@ -23,7 +23,6 @@ const Matrix3& hunt_cones() {
   return cones;
 }
 
-// Matrix from XYZ to the cones on which chromatic adaptation acts.
 Matrix3 adapting_cones(AppearanceModel model) {
   return cone_responses(model == AppearanceModel::cam16 ? Adaptation::cat16 : Adaptation::cat02);
 }

@@ -22,17 +22,12 @@ T shipped(std::optional<T> value, const std::string& name, const Diagnostics& di
 }
 
 // Chart and light of the sensitivity index.
-struct IndexSetting {
-  Chart chart;
-  Curve light;
-};
-
-const IndexSetting& index_setting() {
-  static const IndexSetting setting = [] {
+const std::pair<Chart, Curve>& index_setting() {
+  static const std::pair<Chart, Curve> setting = [] {
     Diagnostics diagnostics;
-    IndexSetting made{shipped_chart("colorchecker24_iso17321-1"),
-                      shipped(load_illuminant("D55", {}, diagnostics), "D55", diagnostics).curve};
-    made.chart.patches.resize(kChromaticPatches);
+    std::pair made{shipped_chart("colorchecker24_iso17321-1"),
+                   shipped(load_illuminant("D55", {}, diagnostics), "D55", diagnostics).curve};
+    made.first.patches.resize(kChromaticPatches);
     return made;
   }();
   return setting;
@@ -86,7 +81,6 @@ std::vector<Samples1nm> basis_of(std::vector<Samples1nm> curves) {
   return basis;
 }
 
-// Squared length of the projection of a vector on the space of a basis.
 double squared_projection(const Samples1nm& vector, const std::vector<Samples1nm>& basis) {
   double total = 0;
   for (const Samples1nm& e : basis) total += dot(vector, e) * dot(vector, e);

@@ -66,7 +66,7 @@ struct Metamerism {
 };
 
 /// Special metamerism index for a change of illuminant, for the CIE 1931 observer [CIE15, sec. 9.2]. Factors
-/// on X, Y and Z of the second reflectance first make both match under the reference light. They are applied
+/// on X, Y and Z of the second reflectance, which make both match under the reference light, are applied
 /// under the test light too. Lights may have any scale. Uses 1 nm sums over `range`. Throws Error{input} if
 /// X, Y or Z of the second reflectance is not positive under the reference light.
 [[nodiscard]] Metamerism metamerism(const Curve& first, const Curve& second, const Curve& reference,

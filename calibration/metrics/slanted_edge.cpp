@@ -38,7 +38,6 @@ Plane transposed(const Plane& plane) {
   return rotated;
 }
 
-// Sum of the squared differences along the rows.
 double contrast(const Plane& plane) {
   double total = 0;
   for (int y = 0; y < plane.height; ++y)
@@ -46,7 +45,6 @@ double contrast(const Plane& plane) {
   return total;
 }
 
-// Hamming window of the given half width, 0 outside it.
 double hamming(double x, double half_width) {
   return std::abs(x) < half_width ? 0.54 + 0.46 * std::cos(std::numbers::pi * x / half_width) : 0;
 }

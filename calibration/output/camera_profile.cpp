@@ -32,14 +32,12 @@ constexpr std::array<FluorescentClass, 5> kFluorescent{
     {{5700, 12}, {4600, 13}, {3800, 14}, {3250, 15}, {2600, 16}}};
 constexpr double kMaxKelvin = 7100;
 
-// Chromaticity of an illuminant by its name; empty for an unknown one.
 std::optional<Chromaticity> chromaticity_of(const std::string& name) {
   Diagnostics ignored;
   const auto light = load_illuminant(name, {}, ignored);
   return light ? std::optional(chromaticity(light->curve)) : std::nullopt;
 }
 
-// Class of a fluorescent light by its colour temperature.
 int fluorescent_code(const Chromaticity& white) {
   const auto temperature = color_temperature(unit_xyz(white));
   if (!temperature || temperature->kelvin > kMaxKelvin) return kOther;

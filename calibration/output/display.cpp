@@ -55,7 +55,7 @@ std::array<double, 3> film_values(const std::vector<const ImageChannel*>& film_p
   return values;
 }
 
-// Clips one pixel's code values; true if one of them was too high.
+// True if a code value was too high.
 bool clip(float* rgb) {
   const bool too_high = std::any_of(rgb, rgb + 3, [](float v) { return !(v <= 1 + kClipTolerance); });
   for (float* v = rgb; v != rgb + 3; ++v) *v = std::isnan(*v) ? 0.0F : std::clamp(*v, 0.0F, 1.0F);
@@ -74,7 +74,6 @@ Image split_planes(const std::vector<float>& packed, const Image& film, bool gre
   return image;
 }
 
-// Name of the space for ACES2065-1 in a user's configuration.
 std::string aces_space(const OCIO::Config& config, const std::string& file) {
   for (const char* name : {"aces_interchange", "ACES2065-1", "ACES - ACES2065-1"})
     if (config.getColorSpace(name)) return name;
@@ -83,20 +82,18 @@ std::string aces_space(const OCIO::Config& config, const std::string& file) {
               "for the film's colours");
 }
 
-// Returns `requested` if it is one of the available names; the first name if nothing is requested.
 std::string choose(const char* option, const std::string& requested, int count,
                    const std::function<const char*(int)>& name) {
   std::vector<std::string> names;
   for (int i = 0; i < count; ++i) names.emplace_back(name(i));
   if (names.empty()) throw Error(ErrorCode::input, option, "the OpenColorIO configuration has none");
   if (requested.empty()) return names.front();
-  if (std::find(names.begin(), names.end(), requested) == names.end())
+  if (std::ranges::find(names, requested) == names.end())
     throw Error(ErrorCode::usage, option,
                 fmt::format("got {}, allowed {}", requested, fmt::join(names, ", ")));
   return requested;
 }
 
-/// Display and view that the options select in a configuration.
 struct ChosenView {
   OCIO::ConstConfigRcPtr config;
   std::string display;
@@ -129,7 +126,6 @@ ChosenView choose_view(const ViewOptions& options) {
   throw Error(options.config.empty() ? ErrorCode::internal : ErrorCode::input, "OpenColorIO", why.what());
 }
 
-// Gamut of a view, in Abbe's own configuration or a user's.
 Gamut gamut_of(bool is_builtin, const std::string& display, const std::string& view) {
   if (!is_builtin || view != kPlainView) return Gamut(kAcesCg);
   return Gamut(codes_of_display(display).space, 1);
@@ -203,7 +199,6 @@ const OcioCameraSpace& choose(const std::vector<OcioCameraSpace>& spaces, const 
   return *nearest;
 }
 
-// The columns of R, G and B in the order of the channels.
 Matrix3 in_order_of(std::span<const std::string> channels, const Matrix3& rgb) {
   const auto order = rgb_order(channels);
   Matrix3 ordered = rgb;

@@ -45,7 +45,7 @@ struct ViewOptions {
   std::string view;     ///< Name of a view of the display.
 };
 
-/// Configuration that $OCIO names; empty if it is not set.
+/// Value of $OCIO; empty if it is not set.
 [[nodiscard]] std::filesystem::path users_configuration();
 
 /// Views of the display that the options select; the selected view comes first. Throws Error{usage} for an
@@ -74,13 +74,11 @@ class DisplayTransform {
   /// a channel.
   [[nodiscard]] DisplayPicture operator()(const Image& film, std::optional<double> scale = {}) const;
 
-  /// Scale that maps the 99th percentile of the brightest Rec.709 primary to 1, over the recorded pixels
-  /// (`recorded_areas`) and with colours mapped into that gamut. Pixels that are not finite are ignored. If
-  /// the percentile is not positive, the brightest pixel counts; the scale is 1 for a film without light. It
-  /// does not depend on display or view. Throws Error{input} if the film lacks a channel.
+  /// Scale that maps the 99th percentile of the brightest Rec.709 primary to 1, over the recorded pixels that
+  /// are finite, with colours mapped into that gamut. If the percentile is not positive, the brightest pixel
+  /// counts; the scale is 1 for a film without light. Throws Error{input} if the film lacks a channel.
   [[nodiscard]] double automatic_scale(const Image& film) const;
 
-  /// Matrix from film values to XYZ relative to D65.
   [[nodiscard]] const Matrix3& to_xyz_d65() const { return to_xyz_d65_; }
   /// Files of the user's configuration: itself and the tables that the view uses. Empty for Abbe's own.
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
@@ -111,10 +109,9 @@ class DisplayTransform {
                                             const ViewOptions& options = {},
                                             std::optional<Chromaticity> white = {});
 
-/// Film values t r_k, for channel k, of the brightest neutral below saturation. The film values r of a
-/// neutral are those that `to_xyz_d65` maps to D65. The level t = min_k saturation_k / r_k is that at which
-/// the first channel saturates in neutral light. `saturation` has the film value of each of three channels at
-/// which it saturates. Empty if no neutral is positive in every channel below saturation.
+/// Film values t r_k, for channel k, of the brightest neutral below saturation. `to_xyz_d65` maps the film
+/// values r to D65. The first channel saturates at t = min_k saturation_k / r_k, with the film value
+/// `saturation` of each of three channels. Empty if no neutral is positive in every channel below saturation.
 [[nodiscard]] std::optional<std::array<double, 3>> brightest_neutral(const Matrix3& to_xyz_d65,
                                                                      const std::vector<double>& saturation);
 

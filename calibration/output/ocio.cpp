@@ -114,7 +114,7 @@ OCIO::ExponentTransformRcPtr cube_root() {
   return transform;
 }
 
-// Appends the transform from linear values to XYZ. The input is scaled to [0, 1], the range of the cube.
+// The input is scaled to [0, 1], the range of the cube.
 void append_cube(const OCIO::GroupTransformRcPtr& group, const CameraProfile& profile) {
   const double end = cube_end(profile);
   if (end != 1) group->appendTransform(matrix_transform(diagonal({1 / end, 1 / end, 1 / end})));
@@ -215,7 +215,6 @@ OCIO::ConfigRcPtr build_config(std::span<const CameraProfile> profiles) {
   return config;
 }
 
-// Linearisation curves as a .spi1d file.
 std::string spi1d_text(const CameraProfile& profile) {
   const auto& [r, g, b] = profile.linearisation;
   std::string text = fmt::format("Version 1\nFrom 0.0 1.0\nLength {}\nComponents 3\n{{\n", r.size());
@@ -225,7 +224,6 @@ std::string spi1d_text(const CameraProfile& profile) {
   return text + "}\n";
 }
 
-// Root polynomial as a .cube file over the cube roots of the linear values.
 std::string cube_text(const CameraProfile& profile) {
   const double end = cube_end(profile);
   std::string text = fmt::format("# cube roots of linear camera values{} to XYZ, D65\nLUT_3D_SIZE {}\n",
@@ -265,7 +263,6 @@ std::vector<double> bake_trials(double end) {
   return values;
 }
 
-// Largest CIEDE2000 between the interpolated cube and the polynomial at the trial values.
 double bake_error(const OCIO::ConstConfigRcPtr& config, const CameraProfile& profile) {
   const OCIO::GroupTransformRcPtr baked = OCIO::GroupTransform::Create();
   append_cube(baked, profile);
