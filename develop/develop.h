@@ -39,9 +39,9 @@ struct DevelopedFilm {
 /// The seed of the render that made the film; 0 if the film does not record it.
 [[nodiscard]] std::uint64_t render_seed(const Image& film);
 
-/// The image for the display transform: every channel in every pixel, with a mosaic demosaicked. Channels are
-/// divided by the `WhiteField` if `sensor.flattens_field`. `calibrated` is that of a `DevelopedFilm`. If the
-/// sensor has a readout and three channels, saturated pixels are set to white.
+/// The image for the display transform, made of `DevelopedFilm::calibrated`: a mosaic is demosaicked,
+/// channels are divided by the `WhiteField` if `sensor.flattens_field`, and saturated pixels of three
+/// channels become white.
 [[nodiscard]] Image display_planes(const FilmSensor& sensor, const Image& calibrated);
 
 /// The luminance, in the unit of film values of `DisplayTransform`, that pictures of `display_planes` show as

@@ -35,10 +35,8 @@ struct LinearImage {
 
 /// Reads a film (its expected exposure), a spectral film (its bands) or any other picture (its code values in
 /// [0, 1], linear or not). A raw DNG, FITS, TIFF or PNG gives digital numbers above black, scaled as the file
-/// declares and after the opcodes of a DNG. Other formats than .exr and raw are read by `read_picture`.
-/// Throws Error{input} if the file cannot be read, is damaged or has values that are not finite. Throws
-/// Error{resource} if it exceeds the limits of `io/image.h` or the memory left in `inputs`; nullptr is no
-/// limit.
+/// declares and after the opcodes of a DNG. Throws Error{input} if the file cannot be read, is damaged or has
+/// values that are not finite. Throws Error{resource} above the limits of `io/image.h` or of `inputs`.
 [[nodiscard]] LinearImage read_linear_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 /// Divides each pixel of `image` by that of `flat`, a picture of a uniform surface, relative to the mean of

@@ -25,9 +25,8 @@ struct DngProfile {
   std::vector<RawLight> lights;
 };
 
-/// Reads a `dng.json` written by `abbe calibrate`. Reports an input error if the file cannot be read or does
-/// not have two illuminants with their matrices. Also reports an illuminant without an Exif code, because raw
-/// converters take its temperature from the code. The result is then empty.
+/// Reads a `dng.json` written by `abbe calibrate`. Empty after an error: it must have two illuminants with
+/// their matrices and an Exif code, from which raw converters take the temperature.
 [[nodiscard]] std::optional<DngProfile> read_dng_profile(const std::filesystem::path& path,
                                                          Diagnostics& diagnostics);
 

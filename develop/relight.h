@@ -29,7 +29,7 @@ struct LightContribution {
 /// True if the film records tristimulus values X, Y, Z, whose colours are correct under any light.
 [[nodiscard]] bool is_of_observer(const Image& film);
 
-/// Recomputes a film as the sum of its light layers. Layers of lights that are not named keep the factor 1.
+/// Recomputes a film as the sum of its light layers, with the factor 1 for lights that are not named.
 /// Afterwards the film has no layers, and the attribute `relit` records the factors. Factors of planes are in
 /// the order of the sensor's channels or of wavelength. The preview of a spectral film is removed if the
 /// bands of a light have different factors.

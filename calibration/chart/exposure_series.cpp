@@ -240,7 +240,7 @@ void add(const Image& image, const std::optional<RawScale>& recorded, const std:
                         scale.full * (1 - kRounding)};
   planes.black = scale.black * (1 + kRounding);
   std::vector<PatchOutline> outlines;
-  std::transform(regions.begin(), regions.end(), std::back_inserter(outlines), outline_of);
+  std::ranges::transform(regions, std::back_inserter(outlines), outline_of);
   const std::vector<PatchValues> patches = measure_patches(image, planes, outlines);
   for (std::size_t i = 0; i < patches.size(); ++i)
     for (std::size_t k = 0; k < patches[i].channels.size(); ++k) {

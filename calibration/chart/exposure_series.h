@@ -13,8 +13,7 @@
 
 namespace abbe {
 
-/// A known camera response for tests of its recovery. It maps linear exposure to a code value in [0, 1] and
-/// rises strictly between 0 and 1. Exposures of 1 and above give full scale, negative ones 0.
+/// A known camera response from linear exposure to code values in [0, 1], for tests of its recovery.
 class PlantedResponse {
  public:
   /// Parses "linear", "gamma:G" (code = x^(1/G), G in [0.2, 5]) or "s-curve". The latter is a film-like
@@ -39,8 +38,7 @@ struct CodeNoise {
   double read = 0;  ///< Standard deviation of dark codes.
   double shot = 0;  ///< Variance per unit of code.
 
-  /// Standard deviation of a code whose noiseless value is `code`, rounding included. Negative codes count as
-  /// 0.
+  /// Standard deviation of a code whose noiseless value is `code`, rounding included.
   [[nodiscard]] double deviation(double code) const;
 };
 
@@ -64,9 +62,8 @@ struct ExposureSeries {
 struct PhotographedSeries {
   /// Names of the channels: R, G and B first, then others in the order of the file.
   std::vector<std::string> channels;
-  /// One series per channel, whose patches are the regions and whose times are in the order of the listing.
-  std::vector<ExposureSeries> series;
-  FullScale full_scale = {};  ///< Value of the photographs at code 1.
+  std::vector<ExposureSeries> series;  ///< One per channel; patches and times are those of the listing.
+  FullScale full_scale = {};           ///< Value of the photographs at code 1.
 };
 
 /// Reads photographs of one still scene (any picture format, EXR too) listed in a JSON file:
@@ -91,15 +88,10 @@ struct PhotographedSeries {
 ///
 /// Channels are the sensor planes that a file records, otherwise all planes but alpha and variances.
 ///
-/// Returns nothing after an error in `diagnostics`:
-/// - a malformed listing, and a photograph without an exposure time;
-/// - photographs of unequal size or channels, and raw files among others;
-/// - regions outside the photographs, and values that are not finite;
-/// - a `full_scale` that is not a code of raw files above their black.
-///
-/// Warns if a region shows that the camera clips below `full_scale`. Throws Error{input} or Error{resource}
-/// as `read_raw_image` for a photograph that cannot be read. `inputs`, unless null, records all files and
-/// limits their memory.
+/// Returns nothing after an error in `diagnostics`: a malformed listing, unequal photographs, and values,
+/// regions or a `full_scale` that do not fit them. Warns if a region shows that the camera clips below
+/// `full_scale`. Throws as `read_raw_image`. `inputs`, unless null, records all files and limits their
+/// memory.
 [[nodiscard]] std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
                                                             Diagnostics& diagnostics,
                                                             Inputs* inputs = nullptr);

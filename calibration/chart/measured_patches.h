@@ -63,10 +63,9 @@ struct MeasuredPatches {
 ///
 /// Saturation: patches are marked as saturated, with a warning, if `R_saturated`, `G_saturated` or
 /// `B_saturated` is too high. A value of 1 or more is a number of pixels, and is too high if it exceeds those
-/// that may be defective (`exceeds_defects`). A value below 1 is a fraction of the pixels, and is too high if
-/// it is above 0. Without columns of pixels, any value above 0 is too high. A table may have deviations but
-/// not these columns. Then patches at the highest value of a channel are marked if they alone have no
-/// deviation.
+/// that may be defective (`exceeds_defects`). A fraction of the pixels is too high if it is above 0, as is
+/// any value without columns of pixels. In a table of deviations without these columns, patches at the
+/// highest value of a channel are marked if they alone have no deviation.
 [[nodiscard]] std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path& path,
                                                                    Diagnostics& diagnostics);
 
@@ -77,10 +76,9 @@ struct FullScale {
 };
 
 /// Divides values and deviations by their full scale, so that a recovered response applies to them as codes
-/// from 0 to 1. The full scale is `full_scale.dn` for numbers above black, and `full_scale.value` for code
-/// and film values. Values of any other unit are such codes already. Throws Error{input} naming `file` for
-/// numbers above black if the series is not of raw files. Throws it also for a patch above 1 that is not
-/// marked as saturated.
+/// from 0 to 1. Values that are neither numbers above black nor code or film values are such codes already.
+/// Throws Error{input} naming `file` for numbers above black if the series is not of raw files, and for a
+/// patch above 1 that is not marked as saturated.
 void scale_to_codes(MeasuredPatches& patches, const FullScale& full_scale, const std::filesystem::path& file);
 
 }  // namespace abbe

@@ -121,8 +121,7 @@ Attempt solve(const PatchColors& colors, const Parameters& start, const Correcti
 bool usable(const Attempt& attempt) {
   return attempt.summary.IsSolutionUsable() && attempt.summary.termination_type == ceres::CONVERGENCE &&
          std::isfinite(attempt.summary.final_cost) &&
-         std::all_of(attempt.parameters.begin(), attempt.parameters.end(),
-                     [](double p) { return std::isfinite(p); });
+         std::ranges::all_of(attempt.parameters, [](double p) { return std::isfinite(p); });
 }
 
 double objective_of(const PatchErrors& errors, const PatchColors& colors, Objective objective) {

@@ -92,9 +92,8 @@ struct CorrectionOptions {
   /// Number of starts: the least-squares correction and randomly displaced copies of it. At least 1.
   int starts = 16;
   std::uint64_t seed = 1;  ///< Seed of the displacements.
-  /// Maximum number of iterations from each start. A sum of absolute errors approaches its minimum by a
-  /// nearly constant factor per step, as slowly as 0.97 for ideal filters. A fit may therefore need hundreds
-  /// of iterations.
+  /// Maximum from each start. A sum of absolute errors approaches its minimum by a nearly constant factor per
+  /// step, as slowly as 0.97 for ideal filters.
   int max_iterations = 2000;
 };
 
@@ -109,9 +108,8 @@ void require_enough_patches(CorrectionModel model, std::size_t patches);
 ///
 /// If the objective is a mean colour difference, the loss of a patch is 2 a^2 (sqrt(1 + dE^2/a^2) - 1) with a
 /// = 0.05, an absolute error that is smooth at zero. The least-squares start is the answer for
-/// `Objective::xyz`. The result is never worse in the objective than its start. Throws Error{input} if the
-/// patches do not determine the correction, or if no start converges to a relative change of the cost below
-/// 1e-10.
+/// `Objective::xyz`. Throws Error{input} if the patches do not determine the correction, or if no start
+/// converges to a relative change of the cost below 1e-10.
 [[nodiscard]] CorrectionFit fit_correction(const PatchColors& colors, const CorrectionOptions& options = {});
 
 /// Weights of noisy patches in the fit of a correction: t^2/(t^2 + s^2).

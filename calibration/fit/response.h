@@ -27,8 +27,7 @@ struct ResponseFit {
   std::vector<double> log_deviation;
   double initial_cost = 0;  ///< Cost of the last pass at its start.
   double final_cost = 0;    ///< Cost of the last pass at its end.
-  /// Median absolute residual of the code values (full scale 1).
-  double median_code = 0;
+  double median_code = 0;   ///< Median absolute residual of the code values (full scale 1).
   /// Size of the residuals in units of the stated deviations, or of those estimated from earlier residuals.
   double noise_scale = 0;
   double roughness = 0;     ///< Weight of the curve's second differences, chosen by cross-validation.
@@ -36,9 +35,8 @@ struct ResponseFit {
   int iterations = 0;       ///< Iterations of all passes.
   /// Misfit that neither noise nor outliers explain, such as a knee sharper than the curve can follow. At
   /// least three of nine neighbouring codes are off, significantly more than elsewhere. `log_deviation`
-  /// includes the misfit in its range. Empty if the curve follows all codes to 0.2 % of full scale. Also
-  /// empty if the series does not state deviations, because they are then estimated from the residuals
-  /// themselves.
+  /// includes it. Empty if the curve follows all codes to 0.2 % of full scale, and for a series that does not
+  /// state deviations, which are then estimated from the residuals themselves.
   std::optional<ResponseMisfit> misfit = {};
 };
 

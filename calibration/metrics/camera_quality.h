@@ -23,10 +23,9 @@ struct CameraQuality {
   double sensitivity_index = 0;  ///< Result of the function `sensitivity_index`.
 };
 
-/// The quality of every shipped camera of three channels, in the order of their names, under a light with the
-/// spectral power `light` on any scale. Throws Error{usage} if the chart has too few patches for the root
-/// polynomial (24). Throws Error{input} if a fit does not converge, or if a channel receives nothing from the
-/// light. Throws the error of a shipped table that cannot be loaded.
+/// The quality of every shipped camera of three channels, in the order of their names, under a light on any
+/// scale. Throws Error{usage} if the chart has too few patches for the root polynomial (24), and otherwise as
+/// `integrate` and `fit_correction`.
 [[nodiscard]] std::vector<CameraQuality> all_camera_qualities(const Chart& chart, const Curve& light);
 
 /// Colour accuracy of three channels: 100 - 5.5 times a mean distance in L*a*b*, at most 100 and possibly

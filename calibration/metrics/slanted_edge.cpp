@@ -84,8 +84,7 @@ EdgeLine edge_line(const Plane& plane, const EdgeLine& near, double half_width) 
 }
 
 void require_finite(const Plane& plane) {
-  const auto bad =
-      std::find_if(plane.values.begin(), plane.values.end(), [](double v) { return !std::isfinite(v); });
+  const auto bad = std::ranges::find_if_not(plane.values, [](double v) { return std::isfinite(v); });
   if (bad == plane.values.end()) return;
   const auto at = static_cast<int>(bad - plane.values.begin());
   refuse(fmt::format("pixel {},{} of these is not a finite number (got {})", at % plane.width,

@@ -37,12 +37,10 @@ struct EdgeResponse {
 ///
 /// Throws Error{input} for a picture
 /// - that is smaller than 16 x 16 pixels or has a value that is not finite;
-/// - without an edge;
 /// - whose edge is along the pixels (less than 1 degree) or near the diagonal (more than 40 degrees);
-/// - whose edge leaves it, comes within about two pixels of its border, or crosses too few columns to fill
-///   all bins;
-/// - with more than one edge, such as a chart or a line. The distance from the edge must explain nine tenths
-///   of the variance, and the two sides must differ.
+/// - whose edge comes within about two pixels of its border, or crosses too few columns to fill all bins;
+/// - without an edge, or with several: the distance from the edge must explain nine tenths of the variance,
+///   and the two sides must differ.
 [[nodiscard]] EdgeResponse slanted_edge(std::span<const double> values, int width, int height);
 
 }  // namespace abbe

@@ -47,7 +47,7 @@ struct CameraProfile {
   return profile.adaptation * linear_part(profile.correction) * diagonal(profile.gains);
 }
 
-/// Colour matrices of a DNG file for a camera under one light [DNG, ch. 6].
+/// Matrices of a DNG file for a camera under one light [DNG, ch. 6].
 struct DngMatrices {
   /// ColorMatrix: from unadapted XYZ to linear camera values, scaled so that the largest value of white is 1.
   Matrix3 color;
@@ -92,8 +92,8 @@ struct DngLight {
 /// classifies by colour temperature. Other names, and all tables of users, give 255 (other light).
 [[nodiscard]] int exif_light_source(const std::string& name);
 
-/// Exif light source number of a light with a known chromaticity only: that of the illuminant with this
-/// chromaticity to 0.0005, 255 if there is none. Standard illuminants are tried first, then FL1 to FL12.
+/// Exif light source number of the illuminant with this chromaticity (`is_same_white`), 255 if there is none.
+/// Standard illuminants are tried first, then FL1 to FL12.
 [[nodiscard]] int exif_light_source(const Chromaticity& white);
 
 /// Spectral sensitivities of a camera as JSON text for rawtoaces and physlight, which fit ACES input

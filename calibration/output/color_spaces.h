@@ -27,7 +27,7 @@ enum class Adaptation {
   cat16,     ///< The cones of CAM16 [Li2017].
 };
 
-/// Matrix from XYZ to the cone responses of a method, before any adaptation.
+/// Matrix from XYZ to the cone responses of a method.
 [[nodiscard]] Matrix3 cone_responses(Adaptation method);
 
 /// Matrix of complete chromatic adaptation: it converts XYZ under the white `from_white` to XYZ under

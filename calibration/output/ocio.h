@@ -36,8 +36,7 @@ struct DisplayCodes {
 /// light other than ASCII letters, digits, '.' and '-' become '_'.
 [[nodiscard]] std::string camera_file(const CameraProfile& profile, const std::string& extension);
 
-/// Text of an OpenColorIO version 2 configuration. Its reference space is linear XYZ with white D65. It
-/// contains
+/// Text of an OpenColorIO version 2 configuration with the reference space linear XYZ, white D65. It contains
 /// - one space for each profile: a file transform of its `.spi1d` if there is a linearisation, then a matrix,
 ///   or the cube root and the `.cube` of a root polynomial;
 /// - the spaces ACES2065-1, ACEScg, linear Rec.709 and Raw;
@@ -80,8 +79,8 @@ struct WrittenConfig {
 /// - `config.ocio` last, after OpenColorIO has validated it.
 ///
 /// Files of these names are replaced. Throws Error{output} if the folder cannot be written or OpenColorIO
-/// rejects the configuration. It does so if $OCIO_ACTIVE_DISPLAYS names displays of another one. Throws
-/// Error{internal} as `ocio_config_text`.
+/// rejects the configuration, as if $OCIO_ACTIVE_DISPLAYS names other displays. Throws also as
+/// `ocio_config_text`.
 WrittenConfig write_ocio_config(const std::filesystem::path& folder, std::span<const CameraProfile> profiles);
 
 }  // namespace abbe
