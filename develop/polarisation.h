@@ -15,8 +15,7 @@ namespace abbe {
 
 /// Polarisation of each channel C of a film, in channels `DoP.C`, `DoLP.C` and `AoLP.C`. They hold the degree
 /// of polarisation, the degree of linear polarisation and its angle [degrees] (`PolarisationFigures`). Linear
-/// polarisers cannot measure `DoP.C`, which is then absent. Throws Error{usage} if the film does not record
-/// polarisation, and as `stokes_planes`.
+/// polarisers cannot measure `DoP.C`, which is then absent. Throws as `polarisation_of_light`.
 [[nodiscard]] Image polarisation_image(const Image& film);
 
 /// Stokes vectors from channels behind linear polarisers at three or more angles, by least squares. Channels

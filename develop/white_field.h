@@ -22,7 +22,6 @@ struct WhiteField {
   std::vector<std::vector<double>> relative;  ///< At least two rows of positive numbers.
 };
 
-/// The text that `parse_white_field` reads.
 [[nodiscard]] std::string to_text(const WhiteField& field);
 /// Parses a field with `channels` channels; empty if the text is malformed or does not have two rows.
 [[nodiscard]] std::optional<WhiteField> parse_white_field(const std::string& text, std::size_t channels);
@@ -34,8 +33,7 @@ struct WhiteField {
 /// A warning that ends with `remedy` if the result of `neutral_shift` exceeds 1; empty otherwise.
 [[nodiscard]] std::optional<std::string> field_tint_warning(double neutral_shift, const std::string& remedy);
 
-/// Divides the channels `channels` of a picture, which are those of the field in order, by the field. They
-/// then respond to white as at the centre. Other channels are unchanged.
+/// Divides the `channels` of a picture, which are those of the field in order, by the field. Others remain.
 void flatten(Image& planes, std::span<const std::string> channels, const WhiteField& field);
 /// The largest response of each channel over the field, relative to the centre.
 [[nodiscard]] std::vector<double> largest_response(const WhiteField& field);

@@ -32,11 +32,10 @@ namespace abbe {
 /// it.
 [[nodiscard]] std::vector<double> diffuser_values(std::span<const Channel> channels, const Curve& illuminant);
 
-/// Values of a camera with three channels, in channel order.
+/// Values of three channels.
 using Raw = std::array<double, 3>;
 
-/// Values of a three-channel camera and colours for the CIE 1931 observer, for the patches of a chart under
-/// one illuminant.
+/// Values of a camera and colours for the CIE 1931 observer, of a chart's patches under one illuminant.
 struct PatchColors {
   std::vector<std::string> names;
   std::vector<Raw> raw;  ///< White-balanced values; the perfect diffuser is (1, 1, 1).

@@ -20,8 +20,7 @@ struct ChannelTransfer {
   std::optional<double> dynamic_range_db;
   /// Electrons at which the signal is ten times its noise: e/sqrt(e + read noise^2) = 10.
   double snr10_e;
-  /// `snr10_e` as an exposure of the most sensitive channel [lx s]; empty if the files do not record the
-  /// sensitivity.
+  /// `snr10_e` as an exposure of the most sensitive channel [lx s]; empty if its sensitivity is unknown.
   std::optional<double> snr10_lx_s;
 };
 
@@ -39,8 +38,7 @@ struct ChannelTransfer {
 /// - has no second frame of its exposure, or a copy of it, or one that saw other light, as far as row noise
 ///   allows that test.
 ///
-/// Throws Error{usage} if `dark` or `bright` is empty, and otherwise as `read_raw_image` and
-/// `photon_transfer`.
+/// Throws Error{usage} if `dark` or `bright` is empty, and as `read_raw_image` and `photon_transfer`.
 [[nodiscard]] std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::path> dark,
                                                             std::span<const std::filesystem::path> bright,
                                                             Inputs& inputs,

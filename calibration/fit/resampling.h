@@ -33,8 +33,7 @@ struct ModelCandidate {
 
 /// Compares all models that have enough patches, by the mean error of `cross_validate`. The first of the
 /// result is the best: the one with the fewest terms among those within 0.01 of the least error. The others
-/// follow by rising error. The model of `options` is not used. There are as many folds as patches, at most
-/// 24, if `folds` is 0. Throws as `cross_validate`.
+/// follow by rising error. If `folds` is 0, there are as many folds as patches, at most 24.
 [[nodiscard]] std::vector<ModelCandidate> cross_validate_models(const PatchColors& colors,
                                                                 const CorrectionOptions& options,
                                                                 std::size_t folds);
