@@ -66,6 +66,10 @@ struct IntegratorTraits {
 /// `IntegratorTraits::owned` of integrators that merge paths.
 inline constexpr std::string_view kMergedPaths = "E (S|D)* L, except E S* L of lights without area";
 
+/// Integrators that Integrator::automatic combines: for camera paths, and for the photons of caustics.
+inline constexpr Integrator kAutomaticPaths = Integrator::path;
+inline constexpr Integrator kAutomaticPhotons = Integrator::light;
+
 /// All integrators, in the order of the enumeration. `automatic` traces what `path` traces.
 inline constexpr auto kIntegrators = std::to_array<IntegratorTraits>({
     {.integrator = Integrator::automatic,

@@ -382,7 +382,7 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i]) plan.light_media[i] = media_at_light(scene, scene.lights[i]).value();
   if (traces_light && plan.traced_lights.empty()) {
-    std::erase(plan.techniques, Technique::light);
+    std::erase_if(plan.techniques, [](Technique one) { return traits(one).traces == TracedPaths::light; });
     plan.traced.assign(scene.lights.size(), false);
   }
   return plan;
@@ -449,7 +449,7 @@ Plan make_plan(const Scene& scene) {
 std::optional<Plan> make_photon_plan(const Scene& scene, const Emissions& emissions,
                                      const std::vector<bool>& lights) {
   if (photon_refusal(scene, lights, false) || photon_start_error(scene, lights)) return std::nullopt;
-  Plan plan = plan_of(scene, {Technique::path, Technique::light}, emissions, lights);
+  Plan plan = plan_of(scene, {kAutomaticPaths, kAutomaticPhotons}, emissions, lights);
   if (plan.traced_lights.empty()) return std::nullopt;
   return plan;
 }

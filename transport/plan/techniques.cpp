@@ -6,8 +6,8 @@ namespace abbe {
 
 std::vector<Technique> chosen_techniques(const Scene& scene) {
   if (scene.render.integrator != Integrator::automatic) return {scene.render.integrator};
-  if (scene.features.light_tracing) return {Technique::path, Technique::light};
-  return {Technique::path};
+  if (scene.features.light_tracing) return {kAutomaticPaths, kAutomaticPhotons};
+  return {kAutomaticPaths};
 }
 
 std::vector<PathClass> unsampled_paths(const Scene& scene) {

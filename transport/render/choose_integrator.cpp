@@ -123,8 +123,8 @@ IntegratorChoice choose_integrator(const Scene& scene, int threads) {
   const bool is_automatic = scene.render.integrator == Integrator::automatic;
   if (const auto refused = refusal(scene)) {
     const bool by_paths =
-        is_automatic && is_probe(scene.camera) && !refusal(with_integrator(scene, Integrator::path));
-    if (by_paths) return {Integrator::path, refused->what()};
+        is_automatic && is_probe(scene.camera) && !refusal(with_integrator(scene, kAutomaticPaths));
+    if (by_paths) return {kAutomaticPaths, refused->what()};
     return {scene.render.integrator, ""};
   }
   if (is_automatic && scene.render.consistent) {

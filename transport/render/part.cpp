@@ -332,11 +332,7 @@ void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
   set_areas(sum, std::move(header.areas));
   if (const auto stated = header.identity.find(kStatedSamplesKey); stated != header.identity.end())
     sum.identity[kStatedSamplesKey] = stated->second;
-  RenderStats& stats = sum.result.stats;
-  stats.paths += part.result.stats.paths;
-  stats.rays += part.result.stats.rays;
-  stats.nonfinite_samples += part.result.stats.nonfinite_samples;
-  stats.cut += part.result.stats.cut;
+  sum.result.stats += part.result.stats;
 }
 
 SampledAreas missing_samples(const PartHeader& sum, const std::optional<Crop>& crop) {

@@ -12,9 +12,7 @@
 #include "transport/render/cost.h"
 #include "transport/render/pass.h"
 #include "transport/render/threads.h"
-#include "transport/technique/bidirectional.h"
-#include "transport/technique/light.h"
-#include "transport/technique/path.h"
+#include "transport/technique/tracers.h"
 
 namespace abbe {
 namespace {
@@ -44,37 +42,34 @@ ContributionDeposit sum_by_light(ExposureByLight& sums) {
 }
 
 // Traces camera paths and scales their mean to the sum over all pixels.
-void expose_batch(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
+void expose_batch(const Plan& plan, std::uint32_t batch, Tracers& tracers, ExposureByLight& sums) {
   const Camera& camera = plan.scene.camera;
-  PathTracer tracer(plan, caster);
-  tracer.set_layer_sink(sum_by_light(sums));
-  tracer.trace(pixels_of(plan, batch), [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
+  tracers.path.set_layer_sink(sum_by_light(sums));
+  tracers.path.trace(pixels_of(plan, batch), drop);
   for (double& sum : sums.exposure) sum *= static_cast<double>(camera.width) * camera.height / kPilotPaths;
 }
 
-void expose_bidirectional(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
+void expose_bidirectional(const Plan& plan, std::uint32_t batch, Tracers& tracers, ExposureByLight& sums) {
   std::vector<PixelPair> pairs;
   for (const PixelSample& sample : pixels_of(plan, batch)) {
     const auto i = static_cast<std::uint32_t>(batch * kPilotBatch + pairs.size());
     pairs.push_back({sample.x, sample.y, sample.sampler, {kPilotSeed, Purpose::light, 0, 0, i}, true});
   }
-  BidirectionalTracer tracer(plan, caster);
-  tracer.set_layer_sink(sum_by_light(sums));
-  tracer.trace(pairs, [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
+  tracers.bidirectional.set_layer_sink(sum_by_light(sums));
+  tracers.bidirectional.trace(pairs, drop);
 }
 
-void expose_photons(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
+void expose_photons(const Plan& plan, std::uint32_t batch, Tracers& tracers, ExposureByLight& sums) {
   std::vector<Sampler> photons;
   for (std::uint32_t i = batch * kPilotBatch; i < (batch + 1) * kPilotBatch; ++i)
     photons.emplace_back(kPilotSeed, Purpose::light, 0, 0, i);
-  LightTracer tracer(plan, caster, 1 / kPilotPaths);
   const std::size_t planes = plan.scene.film_planes().size();
   std::vector<double> values(photons.size() * planes);
-  tracer.trace(photons, [&](std::uint32_t photon, const FilmPoint&, std::span<const double> splat) {
+  tracers.light.trace(photons, [&](std::uint32_t photon, const FilmPoint&, std::span<const double> splat) {
     for (std::size_t k = 0; k < planes; ++k) values[photon * planes + k] += splat[k];
   });
   for (std::size_t i = 0; i < photons.size(); ++i)
-    sums.add(tracer.starts()[i].light, std::span(values).subspan(i * planes, planes));
+    sums.add(tracers.light.starts()[i].light, std::span(values).subspan(i * planes, planes));
 }
 
 std::uint64_t pixel_total(const Plan& plan) {
@@ -101,10 +96,7 @@ void trace_some(const Plan& plan, RayCaster& caster) {
   const Scene& scene = plan.scene;
   const auto width = static_cast<std::uint32_t>(scene.camera.width);
   const std::uint32_t pixels = width * static_cast<std::uint32_t>(scene.camera.height);
-  PathTracer path_tracer(plan, caster);
-  LightTracer light_tracer(plan, caster, 1);
-  BidirectionalTracer bidirectional_tracer(plan, caster);
-  const Deposit dropped = [](std::uint32_t, const FilmPoint&, std::span<const double>) {};
+  Tracers tracers(plan, caster, 1);
   std::vector<PixelSample> samples;
   std::vector<Sampler> photons;
   std::vector<PixelPair> pairs;
@@ -119,10 +111,10 @@ void trace_some(const Plan& plan, RayCaster& caster) {
       photons.emplace_back(scene.render.seed, Purpose::light, 0, 0, i);
       pairs.push_back({samples.back().x, samples.back().y, samples.back().sampler, photons.back(), true});
     }
-    if (traces(plan.techniques, TracedPaths::camera)) path_tracer.trace(samples, dropped);
-    if (traces(plan.techniques, TracedPaths::light)) light_tracer.trace(photons, dropped);
+    if (traces(plan.techniques, TracedPaths::camera)) tracers.path.trace(samples, drop);
+    if (traces(plan.techniques, TracedPaths::light)) tracers.light.trace(photons, drop);
     if (!traces(plan.techniques, TracedPaths::camera) && !traces(plan.techniques, TracedPaths::light))
-      bidirectional_tracer.trace(pairs, dropped);
+      tracers.bidirectional.trace(pairs, drop);
   }
 }
 
@@ -168,11 +160,12 @@ void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {
   std::atomic<std::uint32_t> next = 0;
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
+    Tracers tracers(plan, caster, 1 / kPilotPaths);
     for (std::uint32_t batch = next++; batch < kPilotBatches; batch = next++) {
-      if (traces(plan.techniques, TracedPaths::camera)) expose_batch(plan, batch, caster, batches[batch]);
-      if (traces(plan.techniques, TracedPaths::light)) expose_photons(plan, batch, caster, batches[batch]);
+      if (traces(plan.techniques, TracedPaths::camera)) expose_batch(plan, batch, tracers, batches[batch]);
+      if (traces(plan.techniques, TracedPaths::light)) expose_photons(plan, batch, tracers, batches[batch]);
       if (!traces(plan.techniques, TracedPaths::camera) && !traces(plan.techniques, TracedPaths::light))
-        expose_bidirectional(plan, batch, caster, batches[batch]);
+        expose_bidirectional(plan, batch, tracers, batches[batch]);
     }
   });
   // The order of the batches makes the sum independent of the threads.

@@ -204,25 +204,18 @@ class Rendering {
     std::ranges::fill(result_.film.sums(), Int128{0});
     if (result_.layers) std::ranges::fill(result_.layers->sums(), Int128{0});
     if (result_.features) std::ranges::fill(result_.features->sums().sums(), Int128{0});
-    RenderStats& stats = result_.stats;
-    stats.paths = stats.rays = stats.nonfinite_samples = 0;
-    stats.cut = {};
+    static_cast<WorkCounts&>(result_.stats) = {};
   }
 
   // Traces one pass. Checkpoints interrupt it, because it may take long, but not in an MPI group.
   void trace(const SampleRange& range) {
-    RenderStats& stats = result_.stats;
     if (options_.checkpoint && is_single_process() && result_.film.shape().photons > 0 &&
         !result_.before_pass)
       result_.before_pass = std::make_shared<const std::vector<Film>>(copy_replicates(result_, range));
     Pass pass(plan_, result_.film, options_.crop, range, result_.unfinished ? result_.unfinished->items : 0,
               scene_.render.seed, auxiliary_films());
     while (!pass.finished()) {
-      const PassCounts counts = pass.run(threads_, [this] { return is_single_process() && save_is_due(); });
-      stats.paths += counts.paths;
-      stats.rays += counts.rays;
-      stats.nonfinite_samples += counts.nonfinite;
-      stats.cut += counts.cut;
+      result_.stats += pass.run(threads_, [this] { return is_single_process() && save_is_due(); });
       result_.unfinished = {range, pass.done()};
       if (!pass.finished()) save();
     }

@@ -75,8 +75,25 @@ struct RenderOptions {
   MpiGroup mpi_group = {};  ///< The MPI processes that render this film together.
 };
 
+/// Work of a render or of a part of it, and what it dropped.
+struct WorkCounts {
+  std::uint64_t paths = 0;  ///< Camera paths and light paths, without those of pilots.
+  std::uint64_t rays = 0;   ///< Rays of these paths, shadow rays included.
+  /// Contributions dropped: a value is not finite or too large for the film.
+  std::uint64_t nonfinite_samples = 0;
+  TruncatedPaths cut = {};  ///< Paths that ended at the maximum depth.
+
+  WorkCounts& operator+=(const WorkCounts& more) {
+    paths += more.paths;
+    rays += more.rays;
+    nonfinite_samples += more.nonfinite_samples;
+    cut += more.cut;
+    return *this;
+  }
+};
+
 /// Work and time of a render.
-struct RenderStats {
+struct RenderStats : WorkCounts {
   double wall_s = 0;       ///< Wall-clock time of this run, with its planning.
   double cpu_s = 0;        ///< CPU time of all threads and processes in this run.
   int threads = 1;         ///< Threads of each process.
@@ -84,10 +101,6 @@ struct RenderStats {
   int path_splitting = 1;  ///< Directions in which a camera path continues from its first scattering vertex.
   std::uint64_t samples_per_pixel = 0;  ///< Finished samples per pixel, with those of an earlier run.
   std::uint64_t samples_before = 0;     ///< Samples of an earlier run. Counts include that run, times do not.
-  std::uint64_t paths = 0;              ///< Camera paths and light paths, without those of pilots.
-  std::uint64_t rays = 0;               ///< Rays of these paths, shadow rays included.
-  std::uint64_t nonfinite_samples = 0;  ///< Contributions dropped as in `PassCounts::nonfinite`.
-  TruncatedPaths cut = {};              ///< Paths that ended at the maximum depth.
   RelativeError error = {};             ///< Latest estimate; the default if none was needed.
   /// Time that Embree alone takes for logged rays, divided by the time to trace their paths. 0 if not
   /// measured.

@@ -16,9 +16,7 @@
 #include "sensor/film/relative_error.h"
 #include "transport/render/pilot.h"
 #include "transport/render/threads.h"
-#include "transport/technique/bidirectional.h"
-#include "transport/technique/light.h"
-#include "transport/technique/path.h"
+#include "transport/technique/tracers.h"
 
 namespace abbe {
 namespace {
@@ -122,12 +120,12 @@ void add_paths(const PathValues& values, Region& region) {
 }
 
 // Traces the camera paths of one pilot pixel.
-void measure_paths(PathTracer& tracer, const Camera& camera, std::uint32_t pilot, PilotSums& sums) {
+void measure_paths(Tracers& tracers, const Camera& camera, std::uint32_t pilot, PilotSums& sums) {
   const auto [x, y] = pixel_of(camera, pilot);
   std::vector<PixelSample> samples;
   for (std::uint32_t i = 0; i < kPilotPathsPerPixel; ++i) samples.push_back({x, y, path_sampler(pilot, i)});
   PathValues values{};
-  tracer.trace(samples, [&](std::uint32_t path, const FilmPoint&, std::span<const double> more) {
+  tracers.path.trace(samples, [&](std::uint32_t path, const FilmPoint&, std::span<const double> more) {
     values[path] += magnitude(more);
   });
   add_paths(values, sums.at(camera, x, y));
@@ -140,31 +138,31 @@ std::vector<Sampler> photons_of_batch(std::uint32_t batch, std::uint32_t total_p
   return photons;
 }
 
-void measure_photons(LightTracer& tracer, const Camera& camera, std::uint32_t batch,
-                     std::uint32_t total_photons, PilotSums& sums) {
+void measure_photons(Tracers& tracers, const Camera& camera, std::uint32_t batch, std::uint32_t total_photons,
+                     PilotSums& sums) {
   const std::vector<Sampler> photons = photons_of_batch(batch, total_photons);
-  tracer.trace(photons, [&](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
+  tracers.light.trace(photons, [&](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
     sums.add_splat(camera, at, magnitude(values));
   });
   sums.photons_traced += static_cast<double>(photons.size());
 }
 
 // Wavelengths of one photon that arrive at the same pixel add up to one value.
-void measure_split_photons(LightTracer& tracer, const Camera& camera, std::uint32_t batch,
+void measure_split_photons(Tracers& tracers, const Camera& camera, std::uint32_t batch,
                            std::uint32_t total_photons, PilotSums& sums) {
   const std::vector<Sampler> photons = photons_of_batch(batch, total_photons);
   std::map<std::tuple<std::uint32_t, int, int>, double> values_at;
-  tracer.trace(photons, [&](std::uint32_t photon, const FilmPoint& at, std::span<const double> values) {
-    values_at[{photon, at.x, at.y}] += magnitude(values);
-  });
+  tracers.light.trace(photons,
+                      [&](std::uint32_t photon, const FilmPoint& at, std::span<const double> values) {
+                        values_at[{photon, at.x, at.y}] += magnitude(values);
+                      });
   for (const auto& [key, value] : values_at)
     sums.at(camera, std::get<1>(key), std::get<2>(key)).split_squares += value * value;
   sums.split_photons += static_cast<double>(photons.size());
 }
 
 // Splats of a light subpath on other pixels count as those of a photon.
-void measure_bidirectional(BidirectionalTracer& tracer, const Plan& plan, std::uint32_t pilot,
-                           PilotSums& sums) {
+void measure_bidirectional(Tracers& tracers, const Plan& plan, std::uint32_t pilot, PilotSums& sums) {
   const Camera& camera = plan.scene.camera;
   const auto [x, y] = pixel_of(camera, pilot);
   std::vector<PixelPair> pairs;
@@ -177,19 +175,20 @@ void measure_bidirectional(BidirectionalTracer& tracer, const Plan& plan, std::u
   // Let p be the density of all strategies and p' that of path tracing, whose mean square of this light is
   // that of f/p'. The integral of f^2/p' is then the mean of (f/p)^2 p/p' over the bidirectional samples.
   Region& region = sums.at(camera, x, y);
-  tracer.set_layer_sink([&](std::uint32_t pair, const FilmPoint& at, const ContributionInfo& history,
-                            std::span<const double> more) {
+  tracers.bidirectional.set_layer_sink([&](std::uint32_t pair, const FilmPoint& at,
+                                           const ContributionInfo& history, std::span<const double> more) {
     if (at.x == pairs[pair].x && at.y == pairs[pair].y && history.path_tracing_fraction > 0)
       region.path_tracing_squares += std::pow(magnitude(more), 2) /
                                      static_cast<double>(history.path_tracing_fraction) / kPilotPathsPerPixel;
   });
   PathValues values{};
-  tracer.trace(pairs, [&](std::uint32_t pair, const FilmPoint& at, std::span<const double> more) {
-    if (at.x == pairs[pair].x && at.y == pairs[pair].y)
-      values[pair] += magnitude(more);
-    else
-      sums.add_splat(camera, at, magnitude(more) * static_cast<double>(plan.photons));
-  });
+  tracers.bidirectional.trace(
+      pairs, [&](std::uint32_t pair, const FilmPoint& at, std::span<const double> more) {
+        if (at.x == pairs[pair].x && at.y == pairs[pair].y)
+          values[pair] += magnitude(more);
+        else
+          sums.add_splat(camera, at, magnitude(more) * static_cast<double>(plan.photons));
+      });
   sums.photons_traced += kPilotPathsPerPixel;
   add_paths(values, region);
 }
@@ -198,31 +197,23 @@ void measure_bidirectional(BidirectionalTracer& tracer, const Plan& plan, std::u
 PilotSums measure_batch(const Plan& plan, const std::optional<Plan>& split_plan, std::uint32_t batch,
                         std::uint32_t pixels) {
   PilotSums sums;
-  RayCaster path_caster(plan.scene);
-  RayCaster photon_caster(plan.scene);
-  if (traces(plan.techniques, TracedPaths::both)) {
-    BidirectionalTracer tracer(plan, path_caster);
-    for (std::uint32_t i = batch; i < pixels; i += kTechniqueBatches)
-      measure_bidirectional(tracer, plan, i, sums);
+  const Camera& camera = plan.scene.camera;
+  RayCaster caster(plan.scene);
+  Tracers tracers(plan, caster, 1);
+  for (std::uint32_t i = batch; i < pixels; i += kTechniqueBatches) {
+    if (traces(plan.techniques, TracedPaths::both)) measure_bidirectional(tracers, plan, i, sums);
+    if (traces(plan.techniques, TracedPaths::camera)) measure_paths(tracers, camera, i, sums);
   }
-  if (traces(plan.techniques, TracedPaths::camera)) {
-    PathTracer tracer(plan, path_caster);
-    for (std::uint32_t i = batch; i < pixels; i += kTechniqueBatches)
-      measure_paths(tracer, plan.scene.camera, i, sums);
-  }
-  if (traces(plan.techniques, TracedPaths::light)) {
-    LightTracer tracer(plan, photon_caster, 1);
-    measure_photons(tracer, plan.scene.camera, batch, pixels * kPhotonsPerPixel, sums);
-  }
+  sums.path_rays = caster.rays();
+  if (traces(plan.techniques, TracedPaths::light))
+    measure_photons(tracers, camera, batch, pixels * kPhotonsPerPixel, sums);
+  sums.photon_rays = caster.rays() - sums.path_rays;
   if (split_plan) {
-    RayCaster caster(plan.scene);
-    LightTracer tracer(*split_plan, caster, 1);
-    measure_split_photons(tracer, plan.scene.camera, batch, pixels * kPhotonsPerPixel / kSplitPhotonRatio,
-                          sums);
-    sums.split_rays = caster.rays();
+    RayCaster split_caster(plan.scene);
+    Tracers split_tracers(*split_plan, split_caster, 1);
+    measure_split_photons(split_tracers, camera, batch, pixels * kPhotonsPerPixel / kSplitPhotonRatio, sums);
+    sums.split_rays = split_caster.rays();
   }
-  sums.path_rays = path_caster.rays();
-  sums.photon_rays = photon_caster.rays();
   return sums;
 }
 
@@ -372,13 +363,13 @@ Trial trace_pilots(const Plan& plan, int threads, std::uint32_t pixels = kTrialP
   std::atomic<std::uint32_t> next = 0;
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
-    PathTracer tracer(plan, caster);
+    Tracers tracers(plan, caster, 1);
     for (std::uint32_t pilot = next++; pilot < pixels; pilot = next++) {
       std::array<double, kTrialPaths> values{};
-      tracer.trace(trial_samples(plan.scene.camera, pilot),
-                   [&values](std::uint32_t path, const FilmPoint&, std::span<const double> more) {
-                     values.at(path) += magnitude(more);
-                   });
+      tracers.path.trace(trial_samples(plan.scene.camera, pilot),
+                         [&values](std::uint32_t path, const FilmPoint&, std::span<const double> more) {
+                           values.at(path) += magnitude(more);
+                         });
       trial.pixels.at(pilot) = estimate_pixel_noise(values, kPathsPerReplicate);
     }
     rays += caster.rays();

@@ -20,8 +20,8 @@
 #include "transport/plan/plan.h"
 #include "transport/render/pilot.h"
 #include "transport/technique/caustic_photons.h"
-#include "transport/technique/light.h"
 #include "transport/technique/path_starts.h"
+#include "transport/technique/tracers.h"
 
 namespace abbe {
 namespace {
@@ -118,7 +118,7 @@ PilotSplats trace_batch(LightTracer& tracer, std::span<const Sampler> photons,
     cells.add(photon, at, values, pilots.splats);
     if (!branches[photon]) branches[photon] = history.branch;
   });
-  tracer.trace(photons, [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
+  tracer.trace(photons, drop);
   tracer.set_layer_sink({});
   pilots.starts.assign(tracer.starts().begin(), tracer.starts().end());
   for (std::size_t i = 0; i < branches.size(); ++i) pilots.starts[i].branch = branches[i].value_or(0);

@@ -78,8 +78,8 @@ class AdjointBruteTracer : public BruteForceTechnique<TransportMode::radiance>, 
   /// Plan and caster must outlive the tracer.
   AdjointBruteTracer(const Plan& plan, RayCaster& caster);
 
-  /// Traces a path for each sample and deposits each sum under its sample's index in `samples`, without
-  /// `PixelSample::weight`. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
+  /// Traces a path for each sample and deposits each sum under its sample's index in `samples`. Throws
+  /// Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const PixelSample> samples, const Deposit& deposit);
 
   // Callbacks (`PathCallbacks`).

@@ -19,7 +19,7 @@ namespace abbe {
 using FeatureDeposit = std::function<void(const PixelSample& sample, std::span<const double> values)>;
 
 /// First-hit features of pixels, in the order of `feature_planes`; all are 0 if the ray hits nothing. Each
-/// sample casts one ray, sampled as for a path of `PathTracer`, however many paths the sample has. Medium
+/// sample casts one ray, sampled as for a camera path, however many paths the sample has. Medium
 /// boundaries without refraction are crossed; scattering in media is ignored. One instance per thread.
 /// - Coverage: 1.
 /// - Depth: distance from the plane of the lens or probe along its axis, in the scene file's unit. For a

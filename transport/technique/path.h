@@ -58,9 +58,6 @@ struct PixelSample {
   int x;            ///< Column of the pixel.
   int y;            ///< Row of the pixel.
   Sampler sampler;  ///< Random numbers of the path.
-  /// Weight of its exposure; above 1 if not every sample has a path at this pixel. Integrators ignore it: the
-  /// receiver of their deposits applies it.
-  double weight = 1;
 };
 
 /// Unidirectional path tracer [Kajiya1986] with next-event estimation at every non-specular vertex and

@@ -116,7 +116,7 @@ class PhotonGatherer : public PathCallbacks<TransportMode::radiance>, public Lay
   PhotonGatherer(const Plan& plan, RayCaster& caster);
 
   /// Traces a path for each sample, with packet and time of the photons. Deposits each sum under its sample's
-  /// index in `samples`, as the value of one sample per pixel, without `PixelSample::weight`. Throws
+  /// index in `samples`, as the value of one sample per pixel. Throws
   /// Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const PixelSample> samples, const PhotonCloud& cloud, const GatherKernel& kernel,
              const Deposit& deposit);
