@@ -185,6 +185,15 @@ class guide_prism(Page):
         spread, wanted = (radii["656"] - radii["450"] for radii in (edges, expected))
         self.assertAlmostEqual(spread, wanted, delta=self.claimed(r"differ by is right to (\d+(?:\.\d+)?) mm"))
 
+    def test_the_second_prism_deviates_a_colour_as_the_first_does(self):
+        found = self.read("newton_found.json")
+        within = self.claimed(r"formula agree within (\d+(?:\.\d+)?)°")
+        for nm, query, screen in zip(found["nm"], found["query_deg"], found["screen_deg"]):
+            self.assertAlmostEqual(screen, query, delta=within, msg=nm)
+            row = re.search(rf"^\| {nm:.0f} \| ([\d.]+)° \| ([\d.]+)° \|$", self.text, re.MULTILINE)
+            self.assertAlmostEqual(query, float(row[1]), delta=0.006, msg=nm)
+            self.assertAlmostEqual(screen, float(row[2]), delta=0.02, msg=nm)
+
 
 class guide_lens(Page):
     PAGE = "guide/lens.md"

@@ -37,6 +37,14 @@ def beside(pictures, path):
     whole.write(path)
 
 
+def above(pictures, path):
+    """Writes pictures of one width on top of each other as one."""
+    pixels = np.vstack([oiio.ImageBuf(picture).get_pixels(oiio.UINT8) for picture in pictures])
+    whole = oiio.ImageBuf(oiio.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], oiio.UINT8))
+    whole.set_pixels(oiio.ROI.All, pixels)
+    whole.write(path)
+
+
 WIDTH, AXES_BOTTOM = 330, 250  # of a panel, in px
 LEFT, RIGHT, TOP = 58, 316, 34
 ROW = 16  # from line to line of a legend
