@@ -120,6 +120,16 @@ BalancedPatches in_order(const ChartTargets& chart, const MeasuredPatches& measu
   return patches;
 }
 
+// Colours of a second chart that was photographed as the one from which the gains come.
+PatchColors balanced_by(const std::array<double, 3>& gains, const ChartTargets& chart,
+                        const MeasuredPatches& measured) {
+  require_known(chart, measured);
+  PatchColors colors = in_order(chart, measured).colors;
+  for (Raw& raw : colors.raw)
+    for (std::size_t k = 0; k < 3; ++k) raw[k] *= gains[k];
+  return colors;
+}
+
 // Matrix from XYZ to the camera's values with the least error; empty if the patches do not determine it.
 std::optional<Matrix3> to_camera(const PatchColors& colors) {
   try {
@@ -413,15 +423,20 @@ RecoveredResponses recover_responses(const fs::path& series, Inputs& inputs, Dia
 
 CalibrationCase measured_calibration(const CalibrationSource& source, const std::string& illuminant,
                                      Inputs& inputs, Diagnostics& diagnostics) {
+  const bool is_tested = !source.test_measured.empty();
   const auto light = load_illuminant(illuminant, {}, diagnostics);
   const auto chart = light ? load_chart_targets(source.chart, light->curve, {}, diagnostics) : std::nullopt;
+  const auto test =
+      light && is_tested ? load_chart_targets(source.test, light->curve, {}, diagnostics) : std::nullopt;
   auto patches = load_measured_patches(source.measured, diagnostics);
+  auto test_patches = is_tested ? load_measured_patches(source.test_measured, diagnostics) : std::nullopt;
   const Chart training = load_training(source, diagnostics);
   std::optional<std::vector<Channel>> channels;
   if (!training.patches.empty())
     channels = camera_channels(source.camera, source.camera_response, diagnostics);
   require_no_errors(diagnostics);
   require_light_of(*chart, *light);
+  if (test) require_light_of(*test, *light);
   if (channels) require_rgb(*channels, &Channel::name, "--camera");
   MeasuredCamera camera{source.measured.stem().string(), illuminant, {}, {}};
   if (!source.series.empty()) {
@@ -430,12 +445,20 @@ CalibrationCase measured_calibration(const CalibrationSource& source, const std:
     camera.responses = in_rgb_order(std::move(recovered.channels), &ChannelResponse::channel);
     scale_to_codes(*patches, recovered.full_scale, source.measured);
     linearise_all(*patches, camera.responses);
+    if (test_patches) {
+      scale_to_codes(*test_patches, recovered.full_scale, source.test_measured);
+      linearise_all(*test_patches, camera.responses);
+    }
   } else if (patches->unit == kCodeValues) {
     warn_of_codes(source.measured, "measure raw files, or give a --series", diagnostics);
   }
   camera.chart = balance(*chart, *patches);
   if (channels) camera.training = integrate(training, *channels, light->curve);
-  return {camera.name, source.chart, "", 0, calibrate_measured(camera, source.how), {}};
+  CalibrationCase calibration{camera.name, source.chart, "", 0, calibrate_measured(camera, source.how), {}};
+  if (test)
+    calibration.test = patch_errors(balanced_by(camera.chart.gains, *test, *test_patches),
+                                    calibration.result.correction.correction);
+  return calibration;
 }
 
 }  // namespace abbe

@@ -139,7 +139,9 @@ struct CalibrationSource {
   std::filesystem::path series;
   /// Chart to photograph: a table of `data/reflectance` or a file.
   std::string chart = "colorchecker24_babelcolor_average";
-  std::string test;  ///< Another chart, on which the fitted correction of a simulated camera is tested.
+  std::string test;  ///< Another chart, on which the fitted correction is tested.
+  /// Table like `measured`, of the patches of `test` in the same light at the same exposure.
+  std::filesystem::path test_measured = {};
   /// Tables of reflectances, separated by commas, to which the correction is fitted instead. A real camera
   /// then also needs `camera`, whose responses give the raw values.
   std::string training;
@@ -184,7 +186,7 @@ struct CalibrationCase {
 /// Throws InvalidInput for unknown names and invalid tables. Throws Error{usage} if a table states the
 /// chart's colours in another light, or if the chart is among the training tables. Throws Error{input} if the
 /// channels of the camera or of the photographs are not R, G and B. Throws also as `recover_responses`,
-/// `scale_to_codes`, `balance` and `calibrate_measured`.
+/// `scale_to_codes`, `balance` and `calibrate_measured`. A test chart is balanced by the gains of the chart.
 [[nodiscard]] CalibrationCase measured_calibration(const CalibrationSource& source,
                                                    const std::string& illuminant, Inputs& inputs,
                                                    Diagnostics& diagnostics);
@@ -192,7 +194,7 @@ struct CalibrationCase {
 /// Response curves of a real camera's channels, recovered from a series of photographs.
 struct RecoveredResponses {
   std::vector<ChannelResponse> channels;  ///< In the order of the photographs.
-  FullScale full_scale = {};  ///< Full scale of the codes to which the curves apply.
+  FullScale full_scale = {};              ///< Full scale of the codes to which the curves apply.
 };
 /// Recovers the response curves from a listing of photographs (`read_series`), whose files are added to
 /// `inputs`. Warns of curves that do not follow their codes. Throws InvalidInput for an invalid listing.

@@ -188,8 +188,8 @@ void calibrate(const CalibrateOptions& options) {
     throw Error(ErrorCode::usage, "--illuminant",
                 fmt::format("got {}, allowed one illuminant, or several with --camera", options.illuminants));
   require_named_once(options.illuminants, !options.output.empty());
-  std::vector<fs::path> inputs =
-      files_among({options.camera, options.chart, options.test, options.measured.string()});
+  std::vector<fs::path> inputs = files_among({options.camera, options.chart, options.test,
+                                              options.measured.string(), options.test_measured.string()});
   for (const std::string& illuminant : split(options.illuminants, ','))
     for (fs::path& file : files_among({illuminant})) inputs.push_back(std::move(file));
   for (const fs::path& file : {options.transfer, options.mtf}) {

@@ -149,9 +149,11 @@ void exclude_ineffective_options(CLI::App& calibrate) {
   const auto option = [&calibrate](const std::string& name) { return calibrate.get_option(name); };
   CLI::Option* const measured = option("--measured");
   CLI::Option* const series = option("--series");
-  // Only a simulated camera can use another chart or a chosen response.
-  for (const char* simulated : {"--test", "--response", "--bits"})
+  // Only a simulated camera has a chosen response.
+  for (const char* simulated : {"--response", "--bits"})
     option(simulated)->excludes(measured)->excludes(series)->excludes("--all-cameras");
+  option("--test")->excludes("--all-cameras");
+  option("--test-measured")->needs(measured)->needs("--test");
   std::vector<CLI::Option*> color_options;
   for (const char* name :
        {"--training", "--correction", "--objective", "--adaptation", "--folds", "--transfer", "--mtf"})
@@ -159,7 +161,12 @@ void exclude_ineffective_options(CLI::App& calibrate) {
   option("--output")->excludes("--all-cameras");
   for (const char* name : {"--illuminant", "--chart"}) color_options.push_back(option(name));
   // A series without values of a chart gives responses only, no colours.
-  calibrate.parse_complete_callback([series, measured, color_options] {
+  CLI::Option* const test = option("--test");
+  CLI::Option* const test_measured = option("--test-measured");
+  color_options.push_back(test);
+  calibrate.parse_complete_callback([series, measured, color_options, test, test_measured] {
+    if (measured->count() > 0 && test->count() > test_measured->count())
+      throw CLI::RequiresError(test->get_name(), test_measured->get_name());
     if (series->count() == 0 || measured->count() > 0) return;
     for (const CLI::Option* color_option : color_options)
       if (color_option->count() > 0) throw CLI::RequiresError(color_option->get_name(), measured->get_name());
@@ -190,8 +197,13 @@ void add_calibrate(CLI::App& app, Command& command) {
   add_value(options, "--chart", calibration->chart,
             "Table of the reflectances of the patches, or of their measured colours", "TABLE")
       ->capture_default_str();
-  add_value(options, "--test", calibration->test, "Table of another chart on which the correction is tested",
+  add_value(options, "--test", calibration->test,
+            "Reflectances of another chart, on which the correction is tested; with --measured also a table "
+            "of colours, and --test-measured is needed",
             "TABLE");
+  add_value(options, "--test-measured", calibration->test_measured,
+            "Values that the camera gave for the chart of --test, in the same light at the same exposure",
+            "FILE.csv");
   add_value(options, "--training", calibration->training,
             "Reflectances to which the correction is fitted instead of the chart, with raw values from "
             "the camera's spectral responses",
@@ -217,12 +229,15 @@ void add_calibrate(CLI::App& app, Command& command) {
 std::string help_text(const CLI::App& app, const std::string& topic, const std::string& key) {
   if (topic == "scene") return schema::help(schema::fields_of<spec::Scene>(), key);
   if (topic == "slurm") return slurm_help(key);
-  if (!key.empty())
-    throw Error(ErrorCode::usage, key, "only help scene and help slurm accept a second argument");
-  return topic.empty() ? help_of(app, "abbe") : help_of(find_command(app, topic), "abbe " + topic);
+  if (topic.empty()) return help_of(app, "abbe");
+  const CLI::App& command = find_command(app, topic);
+  if (key.empty()) return help_of(command, "abbe " + topic);
+  if (command.get_subcommands({}).empty())
+    throw Error(ErrorCode::usage, key, fmt::format("{} has no commands of its own", topic));
+  return help_of(find_command(command, key), fmt::format("abbe {} {}", topic, key));
 }
 
-// Adds `abbe help [COMMAND]`, `abbe help scene [KEY]` and `abbe help slurm [FILE]`.
+// Adds `abbe help [COMMAND [COMMAND]]`, `abbe help scene [KEY]` and `abbe help slurm [FILE]`.
 void add_help(CLI::App& app, Command& command) {
   struct Options {
     std::string command;
@@ -237,7 +252,7 @@ void add_help(CLI::App& app, Command& command) {
             "COMMAND|scene|slurm");
   add_value(*help, "key", options->key,
             "With scene: a key at any level, or a path of keys such as sensor/readout; with slurm: "
-            "the one file to print",
+            "the one file to print; with query: one of its commands",
             "KEY");
   add_parsed(*help, "--format", options->format, one_of<ReferenceFormat>({"markdown", "man", "bash"}),
              "Print the reference of all commands in this format", "markdown|man|bash")

@@ -140,6 +140,39 @@ TEST(Calibrate, TrainsAPhotographedCameraOnSpectraSeenThroughItsCurves) {
   EXPECT_EQ(fault([&] { calibrate(options); }, "the chart itself"), ErrorCode::usage);
 }
 
+// Values, without noise, that the Nikon gives for a chart and the perfect diffuser in D65, 300 for the white.
+std::string noiseless_table(const char* chart_name) {
+  Diagnostics diagnostics;
+  const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
+  const Curve lamp = load_illuminant("D65", {}, diagnostics)->curve;
+  auto patches = load_chart(chart_name, {}, diagnostics)->patches;
+  patches.push_back({"perfect diffuser", Curve(1.0)});
+  std::string rows = "# unit: linear camera values\npatch,R,G,B\n";
+  for (const Patch& patch : patches) {
+    const std::vector<double> raw = camera_raw(*channels, lamp, patch.reflectance);
+    rows += fmt::format("{},{},{},{}\n", patch.name, 300 * raw[0], 300 * raw[1], 300 * raw[2]);
+  }
+  return rows;
+}
+
+TEST(Calibrate, TestsAMeasuredCameraOnAnotherChartAsASimulatedOne) {
+  CalibrateOptions options = nikon();
+  options.bits = 0;
+  options.test = "pmc_chart_luo2024";
+  const json simulated = json_output(calibrate, options);
+  options.camera.clear();
+  options.measured = scratch().write("one.csv", noiseless_table("colorchecker24_babelcolor_average"));
+  options.test_measured = scratch().write("other.csv", noiseless_table("pmc_chart_luo2024"));
+  const json measured = json_output(calibrate, options);
+  for (const char* key : {"dE00_mean", "test_dE00_mean", "test_dE00_max"})
+    EXPECT_NEAR(measured[key], simulated[key], 1e-4) << key;
+  EXPECT_GT(measured["test_dE00_mean"], 0.1);
+  options.test = options.chart;
+  EXPECT_EQ(fault([&] { calibrate(options); }, "unknown patch"), ErrorCode::input);
+  const std::string alone = "calibrate --measured " + options.measured.string() + " --test pmc_chart_luo2024";
+  EXPECT_NE(abbe(alone).err.find("--test-measured"), std::string::npos);
+}
+
 // Spectral responses of the Nikon as a table with these columns.
 std::string camera_table(const std::vector<std::size_t>& order) {
   Diagnostics diagnostics;

@@ -62,6 +62,8 @@ TEST(Program, HelpTellsTheKeysOfScenes) {
   EXPECT_EQ(lines("/lights/0/sun/towards"), lines("lights/sun/towards"));
   EXPECT_EQ(lines("materials/glass/dielectric/ior"), lines("materials/dielectric/ior"));
   EXPECT_EQ(abbe("help render resolution").code, 2);
+  EXPECT_EQ(abbe("help query prism").out, abbe("query prism --help").out);
+  EXPECT_NE(abbe("help query prizm").err.find("did you mean \"prism\""), std::string::npos);
 }
 
 TEST(Program, UsageErrorsExitWith2) {

@@ -122,6 +122,7 @@ class guide_calibration(Page):
         self.assertAlmostEqual(found, self.claimed(r"flat-fielded (\d+(?:\.\d+)?)"), delta=0.005)
         self.assertAlmostEqual(uneven, self.claimed(r"as it is (\d+(?:\.\d+)?)"), delta=0.005)
         self.assertLess(abs(found - limit), 0.1)
+        self.assertAlmostEqual(self.read("tested.json")["test_dE00_mean"], self.claimed(r"is (\d+(?:\.\d+)?) over its 30"), delta=0.005)
 
     def test_numpy_finds_the_same_errors(self):
         choice = self.read("choice.json")
