@@ -23,18 +23,12 @@ constexpr unsigned kFlags = rapidjson::kParseIterativeFlag | rapidjson::kParseIn
                             rapidjson::kParseCommentsFlag | rapidjson::kParseTrailingCommasFlag |
                             rapidjson::kParseNumbersAsStringsFlag;
 
-// Token of a JSON pointer as a key, and a key as a token [RFC6901, sec. 3].
+// Token of a JSON pointer as a key [RFC6901, sec. 3].
 std::string unescaped(std::string_view token) {
   std::string key(token);
   boost::replace_all(key, "~1", "/");
   boost::replace_all(key, "~0", "~");
   return key;
-}
-std::string escaped(std::string_view key) {
-  std::string token(key);
-  boost::replace_all(token, "~", "~0");
-  boost::replace_all(token, "/", "~1");
-  return token;
 }
 
 /// Builds the tree from the parser's events. Parsing in place makes strings and numbers point into the copy
@@ -254,6 +248,13 @@ std::string lines_of(const JsonValue& json, std::size_t column, std::size_t inde
   return out + (array ? ']' : '}');
 }
 }  // namespace
+
+std::string escaped_key(std::string_view key) {
+  std::string token(key);
+  boost::replace_all(token, "~", "~0");
+  boost::replace_all(token, "/", "~1");
+  return token;
+}
 
 std::string to_lines(const JsonValue& value, std::size_t width) {
   return lines_of(value, 0, 0, width) + '\n';
