@@ -443,12 +443,12 @@ CalibrationCase measured_calibration(const CalibrationSource& source, const std:
     RecoveredResponses recovered = recover_responses(source.series, inputs, diagnostics);
     require_rgb(recovered.channels, &ChannelResponse::channel, "--series");
     camera.responses = in_rgb_order(std::move(recovered.channels), &ChannelResponse::channel);
-    scale_to_codes(*patches, recovered.full_scale, source.measured);
-    linearise_all(*patches, camera.responses);
-    if (test_patches) {
-      scale_to_codes(*test_patches, recovered.full_scale, source.test_measured);
-      linearise_all(*test_patches, camera.responses);
-    }
+    const auto make_linear = [&](MeasuredPatches& values, const fs::path& file) {
+      scale_to_codes(values, recovered.full_scale, file);
+      linearise_all(values, camera.responses);
+    };
+    make_linear(*patches, source.measured);
+    if (test_patches) make_linear(*test_patches, source.test_measured);
   } else if (patches->unit == kCodeValues) {
     warn_of_codes(source.measured, "measure raw files, or give a --series", diagnostics);
   }

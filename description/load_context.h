@@ -86,12 +86,10 @@ struct LoadContext {
   double span_s = 1;  ///< Duration from then until all rows are closed [s].
   TableCoverage coverage{};
 
-  /// Reports an error, as `Diagnostics::error` does. Returns nothing, so that a builder can return the
-  /// result.
+  /// Calls `Diagnostics::refuse`.
   std::nullopt_t refuse(const SourcePosition& where, std::string message,
                         ErrorCode code = ErrorCode::scene) const {
-    diagnostics.error(where, std::move(message), code);
-    return std::nullopt;
+    return diagnostics.refuse(where, std::move(message), code);
   }
   /// Path of a file that the scene names, relative to `folder`; recorded as by `remember`. The file need not
   /// exist. Reports a URL at `where` and returns nothing.

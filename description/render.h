@@ -29,8 +29,8 @@ struct Render {
   schema::Located<int> roulette_depth{{4}, {}};  ///< Events before Russian roulette begins; -1 disables it.
   std::uint64_t seed = 0;                        ///< Seed of the random numbers.
   std::optional<Photons> photons;                ///< Defaults if absent.
-  schema::Located<bool>
-      consistent;  ///< True to let `auto` choose `vcm` where no unbiased integrator samples.
+  /// True to let `auto` choose `vcm` for light paths that no unbiased integrator can sample.
+  schema::Located<bool> consistent;
   PolarisationMode polarisation = PolarisationMode::automatic;
   schema::Located<DirectionSampling> directions;  ///< Only for the integrator `path`.
   schema::Located<LightStrategy> lights;          ///< Only for the integrator `path`.

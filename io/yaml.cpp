@@ -1,4 +1,4 @@
-#include "io/yaml.h"
+#include "io/json.h"
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>

@@ -23,9 +23,9 @@ template <BsdfModel... Models>
   return std::visit([](const auto& model) -> Bsdf { return model; }, either);
 }
 
-/// Part of `SurfaceModel`: what a model with delta lobes must have.
+/// A model that has no delta lobes, or whose delta lobes have a power and a Mueller matrix.
 template <typename Model>
-concept KnowsItsDeltaLobes = !Model::lobes().delta || requires(const Model& model, const SmoothLookup& ray) {
+concept DescribesDeltaLobes = !Model::lobes().delta || requires(const Model& model, const SmoothLookup& ray) {
   model.smooth_power(ray);
   model.smooth_mueller(ray);
 };
@@ -43,7 +43,7 @@ template <typename Model>
 concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at) {
   { as_bsdf(model.bsdf(at)) } -> std::same_as<Bsdf>;
   { model.lobes() } -> std::same_as<Lobes>;
-  requires KnowsItsDeltaLobes<Model>;
+  requires DescribesDeltaLobes<Model>;
 };
 
 using MaterialModel =

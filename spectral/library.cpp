@@ -235,16 +235,21 @@ NeededRange support_range(const Curve& curve) {
           (after == knots.end() ? std::prev(after) : after)->wavelength_nm};
 }
 
+struct Integral {
+  double value = 0;
+  std::size_t pieces = 0;
+};
+
 // Integral of |a b| over a range; exact unless a factor changes sign between two knots.
-double magnitude_of_product(const Curve& a, const Curve& b, double low_nm, double high_nm) {
+Integral magnitude_of_product(const Curve& a, const Curve& b, double low_nm, double high_nm) {
   CurveCursor piece_a(a, low_nm);
   CurveCursor piece_b(b, low_nm);
   const auto magnitude = [&](double nm) { return std::abs(piece_a(nm) * piece_b(nm)); };
-  double sum = 0;
-  for (double from = low_nm; from < high_nm;) {
+  Integral sum;
+  for (double from = low_nm; from < high_nm; ++sum.pieces) {
     const double to = std::min({piece_a.end_nm(), piece_b.end_nm(), high_nm});
     // Simpson's rule is exact for the product of two lines.
-    sum += (to - from) / 6 * (magnitude(from) + 4 * magnitude((from + to) / 2) + magnitude(to));
+    sum.value += (to - from) / 6 * (magnitude(from) + 4 * magnitude((from + to) / 2) + magnitude(to));
     piece_a.advance_to(to);
     piece_b.advance_to(to);
     from = to;
@@ -349,14 +354,16 @@ std::optional<NamedCurve> load_illuminant(const std::string& name, const SourceP
   return load_curve(kIlluminantUse, name, where, diagnostics, needed);
 }
 
-double fraction_outside(const Curve& weight, const Curve& light, double low_nm, double high_nm) {
+FractionOutside fraction_outside(const Curve& weight, const Curve& light, double low_nm, double high_nm) {
   const NeededRange support = support_range(weight);
-  if (support.low_nm >= low_nm && support.high_nm <= high_nm) return 0;
+  if (support.low_nm >= low_nm && support.high_nm <= high_nm) return {};
   const double from = std::clamp(low_nm, support.low_nm, support.high_nm);
   const double to = std::clamp(high_nm, support.low_nm, support.high_nm);
-  const double outside = magnitude_of_product(weight, light, support.low_nm, from) +
-                         magnitude_of_product(weight, light, to, support.high_nm);
-  return outside > 0 ? outside / (outside + magnitude_of_product(weight, light, from, to)) : 0;
+  const Integral below = magnitude_of_product(weight, light, support.low_nm, from);
+  const Integral within = magnitude_of_product(weight, light, from, to);
+  const Integral above = magnitude_of_product(weight, light, to, support.high_nm);
+  const double outside = below.value + above.value;
+  return {outside > 0 ? outside / (outside + within.value) : 0, below.pieces + within.pieces + above.pieces};
 }
 
 NeededRange main_range(const Curve& curve) {

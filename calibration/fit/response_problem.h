@@ -40,8 +40,8 @@ struct ResponseSample {
 template <typename T>
 class ResponseModel {
  public:
-  static constexpr std::size_t kCoefficients = 32;
-  static constexpr double kMidCode = 0.5;
+  static constexpr std::size_t kCoefficients = 32;  ///< Number of B-splines.
+  static constexpr double kMidCode = 0.5;           ///< Code of mid-scale.
 
   /// `theta` points to the kCoefficients logarithms of the coefficients, which must outlive the model.
   explicit ResponseModel(const T* theta) : theta_(theta) {}

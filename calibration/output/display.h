@@ -79,6 +79,7 @@ class DisplayTransform {
   /// counts; the scale is 1 for a film without light. Throws Error{input} if the film lacks a channel.
   [[nodiscard]] double automatic_scale(const Image& film) const;
 
+  /// Matrix from film values to XYZ relative to D65.
   [[nodiscard]] const Matrix3& to_xyz_d65() const { return to_xyz_d65_; }
   /// Files of the user's configuration: itself and the tables that the view uses. Empty for Abbe's own.
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }

@@ -29,6 +29,16 @@ Fields describe(std::string_view name, std::string_view text, std::vector<Field>
   return {name, text, std::move(fields), std::move(any_of), exclusive};
 }
 
+std::shared_ptr<const FieldContent> detail::content(ValueType&& type) {
+  return std::make_shared<const FieldContent>(std::move(type));
+}
+std::shared_ptr<const FieldContent> detail::content(OneOf&& group) {
+  return std::make_shared<const FieldContent>(std::move(group));
+}
+std::shared_ptr<const FieldContent> detail::content(Inlined inlined) {
+  return std::make_shared<const FieldContent>(inlined);
+}
+
 void detail::require_same(const std::type_info& declared, const std::type_info& actual,
                           std::string_view what) {
   if (declared != actual)

@@ -222,13 +222,18 @@ Fields completed(Fields table) {
   return table;
 }
 
-template <typename Content, typename T, typename M>
-Field make_field(std::string_view key, Content content, std::string_view text, M T::*member) {
+// Defined in the source file: moved here, GCC warns of alternatives that are not set.
+[[nodiscard]] std::shared_ptr<const FieldContent> content(ValueType&& type);
+[[nodiscard]] std::shared_ptr<const FieldContent> content(OneOf&& group);
+[[nodiscard]] std::shared_ptr<const FieldContent> content(Inlined inlined);
+
+template <typename T, typename M>
+Field make_field(std::string_view key, std::shared_ptr<const FieldContent> content, std::string_view text,
+                 M T::*member) {
   const T& instance = defaults<T>();
   const auto offset =
       reinterpret_cast<const char*>(&(instance.*member)) - reinterpret_cast<const char*>(&instance);
-  auto shared = std::make_shared<const FieldContent>(std::move(content));
-  return {key, std::move(shared), text, MemberAccess<M>::kPresence, offset, access<M>(), &typeid(T)};
+  return {key, std::move(content), text, MemberAccess<M>::kPresence, offset, access<M>(), &typeid(T)};
 }
 
 template <typename V, typename A>
@@ -261,13 +266,13 @@ struct LooseForm {
 
 template <typename T, typename V, typename... A>
 Field group(V T::*member, bool required, std::string_view conflict, LooseChoice<A>... choice) {
-  return make_field(
-      "",
-      OneOf{required,
-            conflict,
-            {Choice{choice.key, choice.text, choice.nested, alternative<V, A>(std::move(choice.type))}...},
-            [](void* variant) { static_cast<V*>(variant)->template emplace<0>(); }},
-      "", member);
+  return make_field("",
+                    content(OneOf{required,
+                                  conflict,
+                                  {Choice{choice.key, choice.text, choice.nested,
+                                          alternative<V, A>(std::move(choice.type))}...},
+                                  [](void* variant) { static_cast<V*>(variant)->template emplace<0>(); }}),
+                    "", member);
 }
 
 }  // namespace detail
@@ -464,7 +469,7 @@ template <typename T, typename M>
                           std::string_view text) {
   ValueType type = value.as<detail::ValueOf<M>>();
   detail::require_same(*type.cpp_type, typeid(detail::ValueOf<M>), key);
-  return detail::make_field(key, std::move(type), text, member);
+  return detail::make_field(key, detail::content(std::move(type)), text, member);
 }
 template <typename T, typename M>
 [[nodiscard]] Field field(std::string_view key, M T::*member, std::string_view text = {}) {
@@ -484,7 +489,7 @@ template <typename T, typename M>
 /// A member that is a struct, with its fields in the same object.
 template <typename T, typename M>
 [[nodiscard]] Field inlined(M T::*member) {
-  return detail::make_field("", Inlined{fields_of<M>}, "", member);
+  return detail::make_field("", detail::content(Inlined{fields_of<M>}), "", member);
 }
 /// A group of keys, exactly one of which is present. The member is a variant of std::monostate, which is
 /// first, and the alternatives. `choice` are results of `under` and `inlined_by`.

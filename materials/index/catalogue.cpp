@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "io/data_directory.h"
+#include "io/json.h"
 #include "io/text.h"
-#include "io/yaml.h"
 #include "spectral/air.h"
 
 namespace abbe {

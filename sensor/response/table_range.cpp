@@ -28,7 +28,7 @@ bool check_table_range(const NamedCurve& table, const Curve& light, std::span<co
   double fraction = 0;
   std::string response;  // the one that loses most
   for (const auto& [name, weight] : responses) {
-    const double lost = fraction_outside(*weight, light, table.low_nm, table.high_nm);
+    const double lost = fraction_outside(*weight, light, table.low_nm, table.high_nm).fraction;
     if (lost > fraction) response = name;
     fraction = std::max(fraction, lost);
   }

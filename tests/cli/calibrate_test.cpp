@@ -11,6 +11,7 @@
 #include "cli/calibrate.h"
 #include "io/data_directory.h"
 #include "io/text.h"
+#include "spectral/chart.h"
 #include "spectral/library.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
@@ -105,21 +106,23 @@ TEST(Calibrate, NamesThatAreNoUtf8StandInNoFileAsTheyAre) {
   }
 }
 
-// Table of the camera values of the chart and the white, in the format of `abbe measure`.
-std::string measured_table(const std::string& light, double white, const std::string& saturated = "") {
+// Cells "R,G,B" of the values that the Nikon gives for a reflectance, times `white`.
+std::string nikon_cells(const std::string& light, double white, const Curve& reflectance) {
   Diagnostics diagnostics;
   const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
-  const auto chart = load_chart("colorchecker24_babelcolor_average", {}, diagnostics);
-  const Curve lamp = load_illuminant(light, {}, diagnostics)->curve;
+  const auto raw = camera_raw(*channels, load_illuminant(light, {}, diagnostics)->curve, reflectance);
+  return fmt::format("{},{},{}", white * raw[0], white * raw[1], white * raw[2]);
+}
+
+// Table of the camera values of the chart, in the format of `abbe measure`.
+std::string measured_table(const std::string& light, double white, const std::string& saturated = "") {
   std::string rows =
       "# unit: linear camera "
       "values\npatch,R,G,B,R_deviation,G_deviation,B_deviation,R_pixels,G_pixels,B_pixels,R_saturated,G_"
       "saturated,B_saturated\n";
-  for (const Patch& patch : chart->patches) {
-    const std::vector<double> raw = camera_raw(*channels, lamp, patch.reflectance);
-    rows += fmt::format("{},{},{},{},0.001,0.001,0.001,100,100,100,0,{},0\n", patch.name, white * raw[0],
-                        white * raw[1], white * raw[2], patch.name == saturated ? 0.1 : 0);
-  }
+  for (const Patch& patch : shipped_chart("colorchecker24_babelcolor_average").patches)
+    rows += fmt::format("{},{},0.001,0.001,0.001,100,100,100,0,{},0\n", patch.name,
+                        nikon_cells(light, white, patch.reflectance), patch.name == saturated ? 0.1 : 0);
   return rows;
 }
 
@@ -140,19 +143,12 @@ TEST(Calibrate, TrainsAPhotographedCameraOnSpectraSeenThroughItsCurves) {
   EXPECT_EQ(fault([&] { calibrate(options); }, "the chart itself"), ErrorCode::usage);
 }
 
-// Values, without noise, that the Nikon gives for a chart and the perfect diffuser in D65, 300 for the white.
-std::string noiseless_table(const char* chart_name) {
-  Diagnostics diagnostics;
-  const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
-  const Curve lamp = load_illuminant("D65", {}, diagnostics)->curve;
-  auto patches = load_chart(chart_name, {}, diagnostics)->patches;
-  patches.push_back({"perfect diffuser", Curve(1.0)});
+// Values of a chart and the perfect diffuser in D65, without noise.
+std::string noiseless_table(const std::string& chart) {
   std::string rows = "# unit: linear camera values\npatch,R,G,B\n";
-  for (const Patch& patch : patches) {
-    const std::vector<double> raw = camera_raw(*channels, lamp, patch.reflectance);
-    rows += fmt::format("{},{},{},{}\n", patch.name, 300 * raw[0], 300 * raw[1], 300 * raw[2]);
-  }
-  return rows;
+  for (const Patch& patch : shipped_chart(chart).patches)
+    rows += fmt::format("{},{}\n", patch.name, nikon_cells("D65", 300, patch.reflectance));
+  return rows + fmt::format("perfect diffuser,{}\n", nikon_cells("D65", 300, Curve(1.0)));
 }
 
 TEST(Calibrate, TestsAMeasuredCameraOnAnotherChartAsASimulatedOne) {

@@ -64,6 +64,10 @@ TEST(AtomicFile, WritesNamesAsLongAsFileSystemsTake) {
     EXPECT_NO_THROW(FileLock(folder / name)) << bytes;
   }
   EXPECT_EQ(files_in(folder), 4U);
+  const std::string start(240, 'x');
+  const FileLock one(folder / (start + "1"));
+  EXPECT_NO_THROW(FileLock(folder / (start + "2"))) << "long names that differ at their end";
+  EXPECT_NE(output_error([&] { FileLock(folder / (start + "1")); }), "");
   const fs::path longer = folder / (std::string(252, 'x') + exr);
   EXPECT_EQ(output_error([&] { require_writable(longer); }),
             longer.string() + ": the name is longer than the file system allows");

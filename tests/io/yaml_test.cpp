@@ -1,4 +1,4 @@
-#include "io/yaml.h"
+#include "io/json.h"
 
 #include <gtest/gtest.h>
 

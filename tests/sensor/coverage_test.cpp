@@ -54,14 +54,19 @@ TEST(ResponseCoverage, ALightThatEndsWithinWhatChannelsCountIsTold) {
   for (const Outside outside : {Outside::zero, Outside::error}) EXPECT_EQ(told(outside, within), "");
 }
 
-// Of 800 bins of 1 nm, those from 830 nm on lie outside.
-TEST(ResponseCoverage, BinsAreInsideOrOutside) {
+// Of 800 bins of 1 nm, those from 830 nm on lie outside. Light and response have no knot there, so each needs
+// one piece, and the others none.
+TEST(ResponseCoverage, OfABinOnlyWhatItCountsIsLookedAt) {
   const Curve efficiency({{300, 0.2}, {1100, 0.8}});
   const Curve light = planck(5000);
+  std::size_t pieces = 0;
   for (int nm = 300; nm < 1100; ++nm) {
     const Channel bin = behind(energy_channel("bin", band(nm, nm + 1)), FilterStack{efficiency});
-    EXPECT_EQ(fraction_outside(bin.weight, light, 300, 830), nm < 830 ? 0 : 1) << nm;
+    const FractionOutside beyond = fraction_outside(bin.weight, light, 300, 830);
+    EXPECT_EQ(beyond.fraction, nm < 830 ? 0 : 1) << nm;
+    pieces += beyond.pieces;
   }
+  EXPECT_EQ(pieces, 270U);
 }
 
 /// A user's camera table whose curves are constant from its first row to its last.

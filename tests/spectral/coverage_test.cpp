@@ -11,23 +11,23 @@ namespace abbe {
 namespace {
 
 TEST(Coverage, TheShareBeyondIsOfTheMagnitude) {
-  EXPECT_NEAR(fraction_outside(Curve(2), Curve(1.0), 380, 780), 0.5, 1e-12);
-  EXPECT_NEAR(fraction_outside(Curve(2), Curve(1.0), 300, 1100), 0, 1e-12);
+  EXPECT_NEAR(fraction_outside(Curve(2), Curve(1.0), 380, 780).fraction, 0.5, 1e-12);
+  EXPECT_NEAR(fraction_outside(Curve(2), Curve(1.0), 300, 1100).fraction, 0, 1e-12);
   const Curve both = sum(band(400, 500, -1), band(500, 600, 1));
-  EXPECT_NEAR(fraction_outside(both, Curve(1.0), 300, 525), 0.375, 1e-12);
-  EXPECT_EQ(fraction_outside(Curve(), Curve(1.0), 400, 500), 0);
+  EXPECT_NEAR(fraction_outside(both, Curve(1.0), 300, 525).fraction, 0.375, 1e-12);
+  EXPECT_EQ(fraction_outside(Curve(), Curve(1.0), 400, 500).fraction, 0);
 }
 
 // One eighth of x^2 on [0, 1] lies below 1/2, also if the light continues outside the weight.
 TEST(Coverage, TheShareBeyondIsOfWhatIsCountedOfALight) {
   const Curve weight({{400, 0}, {500, 1}, {500, 0}});
   const Curve light({{400, 0}, {1100, 7}});
-  EXPECT_NEAR(fraction_outside(weight, light, 300, 450), 0.875, 1e-12);
-  EXPECT_NEAR(fraction_outside(weight, light, 450, 1100), 0.125, 1e-12);
-  EXPECT_NEAR(fraction_outside(light, weight, 450, 1100), 0.125, 1e-12);
-  EXPECT_EQ(fraction_outside(weight, light, 600, 1100), 1);
-  EXPECT_EQ(fraction_outside(weight, light, 400, 500), 0);
-  EXPECT_EQ(fraction_outside(weight, band(600, 700), 300, 450), 0) << "nothing is counted";
+  EXPECT_NEAR(fraction_outside(weight, light, 300, 450).fraction, 0.875, 1e-12);
+  EXPECT_NEAR(fraction_outside(weight, light, 450, 1100).fraction, 0.125, 1e-12);
+  EXPECT_NEAR(fraction_outside(light, weight, 450, 1100).fraction, 0.125, 1e-12);
+  EXPECT_EQ(fraction_outside(weight, light, 600, 1100).fraction, 1);
+  EXPECT_EQ(fraction_outside(weight, light, 400, 500).fraction, 0);
+  EXPECT_EQ(fraction_outside(weight, band(600, 700), 300, 450).fraction, 0) << "nothing is counted";
 }
 
 // A table that covers only 380-780 nm leaves a negligible part of a colour unknown.
@@ -37,7 +37,8 @@ TEST(Coverage, ObserversSeeLittleBeyondTheRangeThatTablesMustCover) {
     const ColorMatching& matching = color_matching(observer);
     for (const Curve* curve : {&matching.x, &matching.y, &matching.z})
       for (const Curve& light : {Curve(1.0), planck(2000), planck(20000)})
-        EXPECT_LT(fraction_outside(*curve, light, kNeeded.low_nm, kNeeded.high_nm), kNegligibleFraction);
+        EXPECT_LT(fraction_outside(*curve, light, kNeeded.low_nm, kNeeded.high_nm).fraction,
+                  kNegligibleFraction);
   }
 }
 

@@ -45,7 +45,7 @@ ContributionDeposit sum_by_light(ExposureByLight& sums) {
 void expose_batch(const Plan& plan, std::uint32_t batch, Tracers& tracers, ExposureByLight& sums) {
   const Camera& camera = plan.scene.camera;
   tracers.path.set_layer_sink(sum_by_light(sums));
-  tracers.path.trace(pixels_of(plan, batch), drop);
+  tracers.path.trace(pixels_of(plan, batch), discard_values);
   for (double& sum : sums.exposure) sum *= static_cast<double>(camera.width) * camera.height / kPilotPaths;
 }
 
@@ -56,7 +56,7 @@ void expose_bidirectional(const Plan& plan, std::uint32_t batch, Tracers& tracer
     pairs.push_back({sample.x, sample.y, sample.sampler, {kPilotSeed, Purpose::light, 0, 0, i}, true});
   }
   tracers.bidirectional.set_layer_sink(sum_by_light(sums));
-  tracers.bidirectional.trace(pairs, drop);
+  tracers.bidirectional.trace(pairs, discard_values);
 }
 
 void expose_photons(const Plan& plan, std::uint32_t batch, Tracers& tracers, ExposureByLight& sums) {
@@ -111,10 +111,10 @@ void trace_some(const Plan& plan, RayCaster& caster) {
       photons.emplace_back(scene.render.seed, Purpose::light, 0, 0, i);
       pairs.push_back({samples.back().x, samples.back().y, samples.back().sampler, photons.back(), true});
     }
-    if (traces(plan.techniques, TracedPaths::camera)) tracers.path.trace(samples, drop);
-    if (traces(plan.techniques, TracedPaths::light)) tracers.light.trace(photons, drop);
+    if (traces(plan.techniques, TracedPaths::camera)) tracers.path.trace(samples, discard_values);
+    if (traces(plan.techniques, TracedPaths::light)) tracers.light.trace(photons, discard_values);
     if (!traces(plan.techniques, TracedPaths::camera) && !traces(plan.techniques, TracedPaths::light))
-      tracers.bidirectional.trace(pairs, drop);
+      tracers.bidirectional.trace(pairs, discard_values);
   }
 }
 

@@ -118,7 +118,7 @@ PilotSplats trace_batch(LightTracer& tracer, std::span<const Sampler> photons,
     cells.add(photon, at, values, pilots.splats);
     if (!branches[photon]) branches[photon] = history.branch;
   });
-  tracer.trace(photons, drop);
+  tracer.trace(photons, discard_values);
   tracer.set_layer_sink({});
   pilots.starts.assign(tracer.starts().begin(), tracer.starts().end());
   for (std::size_t i = 0; i < branches.size(); ++i) pilots.starts[i].branch = branches[i].value_or(0);

@@ -35,7 +35,8 @@ struct Tracers {
   AdjointBruteTracer adjoint_brute;
 };
 
-/// `Deposit` that drops the values, if only the single contributions or the rays are of interest.
-inline void drop(std::uint32_t /*path*/, const FilmPoint& /*at*/, std::span<const double> /*values*/) {}
+/// A `Deposit` that ignores its values, for callers that need only single contributions or rays.
+inline void discard_values(std::uint32_t /*path*/, const FilmPoint& /*at*/,
+                           std::span<const double> /*values*/) {}
 
 }  // namespace abbe
